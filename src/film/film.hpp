@@ -1,0 +1,51 @@
+// The film: per-pixel sums in double, written by the tile's owner alone.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace orrery {
+
+/// Linear RGB, unbounded, >= 0 for radiance.
+struct Rgb {
+    float r = 0, g = 0, b = 0;
+    friend bool operator==(const Rgb&, const Rgb&) = default;
+};
+
+/// Row-major pixels, (0,0) top left.
+struct Image {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<Rgb> pixels;  ///< width * height
+
+    Rgb& at(std::uint32_t x, std::uint32_t y) { return pixels[std::size_t{y} * width + x]; }
+    const Rgb& at(std::uint32_t x, std::uint32_t y) const { return pixels[std::size_t{y} * width + x]; }
+};
+
+/// Sums of samples. Sums are double because a float sum of 2^24 samples is wrong by percents.
+/// Not thread safe per pixel; distinct pixels may be written by distinct threads without a lock.
+class Film {
+public:
+    Film(std::uint32_t width, std::uint32_t height)
+        : width_(width), height_(height), pixels_(std::size_t{width} * height) {}
+
+    std::uint32_t width() const { return width_; }
+    std::uint32_t height() const { return height_; }
+
+    /// Adds one sample to a pixel (index = y * width + x). A sample that is not finite never gets in.
+    /// Returns false when it was dropped.
+    bool add(std::size_t pixel, float r, float g, float b);
+
+    /// Mean of the samples that got in; black where there is none.
+    Image mean() const;
+
+private:
+    struct Pixel {
+        double r = 0, g = 0, b = 0;
+        std::uint64_t samples = 0;
+    };
+    std::uint32_t width_, height_;
+    std::vector<Pixel> pixels_;
+};
+
+}  // namespace orrery

@@ -1,0 +1,32 @@
+// Image files out and in: PPM (P6), PNG (8 bit), PFM, EXR (float), by the ending of the name.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "film/film.hpp"
+#include "film/tonemap.hpp"
+
+namespace orrery {
+
+/// What made the image: (key, value) pairs, written where the format has room (PNG tEXt, PPM comment, EXR
+/// attributes). Never a time or a date: the same seed gives the same file, byte for byte.
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+enum class ImageFormat { ppm, png, pfm, exr };
+
+/// By the ending, case-insensitive. Throws std::invalid_argument naming the known endings.
+ImageFormat image_format(const std::filesystem::path& file);
+
+/// Writes `linear` to `file`. PPM and PNG are tone mapped and stored as round(255 x); PFM (little-endian, bottom row
+/// first) and EXR hold linear values. Written to a temporary beside the target, flushed and renamed: a reader never
+/// sees half an image and a failure leaves the previous file and no temporary.
+/// Throws std::runtime_error with the path and the system's reason.
+void write_image(const std::filesystem::path& file, const Image& linear, ToneMap mapper, const Metadata& metadata);
+
+/// Reads any of the four back (8-bit values as v / 255). Throws std::runtime_error naming file and fault.
+Image read_image(const std::filesystem::path& file);
+
+}  // namespace orrery

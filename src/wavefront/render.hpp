@@ -1,0 +1,54 @@
+// A scene to an image: the library's front door.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "film/film.hpp"
+#include "isa.hpp"
+#include "plan/plan.hpp"
+
+namespace orrery {
+
+/// The five stages, in the order a wave runs through them.
+enum class Stage : std::uint8_t { generate, intersect, shade, shadow, roulette };
+inline constexpr std::array<const char*, 5> stage_names = {"generate", "intersect", "shade", "shadow", "roulette"};
+
+struct RenderOptions {
+    unsigned threads = 0;         ///< 0: all cores this process may use
+    Isa isa = best_isa();         ///< must be supported by this machine, else std::invalid_argument
+    std::uint32_t wave_size = 0;  ///< (pixel, sample) pairs per wave, 0: the measured default; changes no image
+    /// Called now and then with the fraction done, in [0, 1]; from one thread at a time. May be empty.
+    std::function<void(double fraction, std::uint64_t rays)> progress;
+    /// Polled between waves; true abandons the render, which then throws Interrupted. May be empty.
+    std::function<bool()> interrupted;
+};
+
+struct Interrupted {};
+
+struct RenderStats {
+    Isa isa = Isa::sse2;  ///< the one that ran
+    unsigned threads = 0;
+    std::uint32_t wave_size = 0;
+    std::uint32_t samples_per_pixel = 0;  ///< really taken (stratified rounds down to a square)
+    double seconds = 0;                   ///< wall time of the rendering proper
+    std::uint64_t closest_rays = 0;       ///< counted where they are cast
+    std::uint64_t shadow_rays = 0;
+    std::array<double, 5> stage_seconds{};  ///< by Stage, summed over threads
+    std::uint64_t bytes_per_ray = 0;        ///< all queue storage per (pixel, sample) pair of a wave
+    std::uint64_t queue_bytes = 0;          ///< all queue storage per thread
+    std::uint64_t dropped_samples = 0;      ///< not finite, kept out of the film
+};
+
+struct RenderResult {
+    Image image;  ///< linear radiance; for DEPTH the post-processed distance in [0, 1)
+    RenderStats stats;
+};
+
+/// Renders with the settings of the scene the plan was made from. Deterministic: the same plan gives the same bytes for
+/// any thread count and wave size. Throws std::invalid_argument on an unsupported ISA, Interrupted as asked.
+RenderResult render(const Plan& plan, const RenderOptions& options);
+
+}  // namespace orrery
