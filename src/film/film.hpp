@@ -1,6 +1,9 @@
 // The film: per-pixel sums in double, written by the tile's owner alone.
 #pragma once
 
+#include <cassert>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -34,7 +37,22 @@ public:
 
     /// Adds one sample to a pixel (index = y * width + x). A sample that is not finite never gets in.
     /// Returns false when it was dropped.
-    bool add(std::size_t pixel, float r, float g, float b);
+    bool add(std::size_t pixel, float r, float g, float b) {
+        assert(pixel < pixels_.size());
+        // One test for three channels: in double the sum of three floats cannot overflow, so it is finite exactly
+        // when all three are (inf - inf is NaN, which is not finite either).
+        const double dr = r, dg = g, db = b;
+        if (!std::isfinite(dr + dg + db)) return false;
+        Pixel& sum = pixels_[pixel];
+        sum.r += dr;
+        sum.g += dg;
+        sum.b += db;
+        ++sum.samples;
+        return true;
+    }
+
+    /// How many samples got into a pixel.
+    std::uint64_t samples(std::size_t pixel) const { return pixels_[pixel].samples; }
 
     /// Mean of the samples that got in; black where there is none.
     Image mean() const;
