@@ -1,0 +1,28 @@
+// The known word nearest to a misspelt one.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace orrery {
+
+/// Insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`; letter case is free.
+/// Only the first 64 bytes of each count, which bounds the work.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// Finds nearest words within a budget of work. A file of many faults and many ids costs their product, so that
+/// without a budget a hostile file of a few megabytes would take minutes.
+class Spelling {
+public:
+    /// The word of `known` nearest to `word`, the first of equals. Empty when `known` is empty or the budget is spent.
+    std::string_view nearest(std::string_view word, std::span<const std::string_view> known);
+
+    /// As nearest(), but empty unless the two are so alike that a slip of the hand explains the difference.
+    std::string_view likely(std::string_view word, std::span<const std::string_view> known);
+
+private:
+    std::size_t budget_ = 100'000'000;  ///< in cells of the distance table: some tenths of a second
+};
+
+}  // namespace orrery
