@@ -55,21 +55,21 @@ private:
     const AreaLight* read_light(Fields& fields, const std::string* shape) {
         const auto node = fields.any("light", "the id of an area light");
         const Light* light = node ? look_up(*node, registries_.lights, fields, report_) : nullptr;
-        if (!light) {
-            some_carrier_unknown_ = true;
-            return nullptr;
-        }
-        const auto* area = std::get_if<AreaLight>(light);
+        const auto* area = light ? std::get_if<AreaLight>(light) : nullptr;
+        if (!area) some_carrier_unknown_ = true;
+        if (!light) return nullptr;
+
+        const std::string& id = *text_of(*node);
         if (!area) {
-            fields.fault("light", fmt::format("found the point light {}, expected the id of an area light",
-                                              in_quotes(*text_of(*node))));
+            fields.fault("light",
+                         fmt::format("found the point light {}, expected the id of an area light", in_quotes(id)));
             return nullptr;
         }
-        carried_.insert(*text_of(*node));
+        carried_.insert(id);
         if (shape && area->shape != *shape) {
             fields.fault("light",
                          fmt::format("found {}, a light of shape {}, expected one of this primitive's shape {}",
-                                     in_quotes(*text_of(*node)), in_quotes(area->shape), in_quotes(*shape)));
+                                     in_quotes(id), in_quotes(area->shape), in_quotes(*shape)));
             return nullptr;
         }
         return area;

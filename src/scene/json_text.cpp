@@ -129,6 +129,11 @@ private:
 }  // namespace
 
 std::optional<Json> parse_json(std::string_view text, Report& report) {
+    // The library takes a NUL for the end of the text and would not look at what follows. No JSON holds one.
+    if (const auto nul = text.find('\0'); nul != text.npos) {
+        report.add(Severity::error, line_and_column(text, nul), "found a NUL byte, expected JSON text in UTF-8");
+        return std::nullopt;
+    }
     Builder builder(text, report);
     if (!Json::sax_parse(text.begin(), text.end(), &builder)) return std::nullopt;
     return builder.take();

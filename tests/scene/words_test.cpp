@@ -1,0 +1,77 @@
+// Words in messages: edit distance, suggestions, and text made printable.
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "scene/printable.hpp"
+#include "scene/report.hpp"
+#include "scene/spelling.hpp"
+
+namespace orrery::test {
+namespace {
+
+using Words = std::array<std::string_view, 3>;
+
+TEST(SpellingTest, DistanceCountsSlips) {
+    EXPECT_EQ(edit_distance("glass", "glass"), 0u);
+    EXPECT_EQ(edit_distance("Glass", "glaSS"), 0u);
+    EXPECT_EQ(edit_distance("glas", "glass"), 1u);
+    EXPECT_EQ(edit_distance("glaass", "glass"), 1u);
+    EXPECT_EQ(edit_distance("gloss", "glass"), 1u);
+    EXPECT_EQ(edit_distance("galss", "glass"), 1u);
+    EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+    EXPECT_EQ(edit_distance("", "abc"), 3u);
+    EXPECT_EQ(edit_distance("abc", ""), 3u);
+}
+
+TEST(SpellingTest, NearestIsFoundAndLikelyIsPickier) {
+    const Words words{"floor", "far wall", "ceiling"};
+    Spelling spelling;
+    EXPECT_EQ(spelling.nearest("flor", words), "floor");
+    EXPECT_EQ(spelling.nearest("cieling", words), "ceiling");
+    EXPECT_EQ(spelling.likely("cieling", words), "ceiling");
+    EXPECT_EQ(spelling.likely("comment", words), "");
+    EXPECT_EQ(spelling.nearest("floor", {}), "");
+}
+
+TEST(SpellingTest, BudgetRunsOut) {
+    const Words words{"floor", "far wall", "ceiling"};
+    Spelling spelling;
+    int answers = 0;
+    while (answers < 1'000'000 && !spelling.nearest("flor", words).empty()) ++answers;
+    EXPECT_GT(answers, 1000);
+    EXPECT_LT(answers, 1'000'000);
+}
+
+TEST(PrintableTest, EscapesWhatATerminalShouldNotSee) {
+    EXPECT_EQ(printable("grey \xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8C\x8D"), "grey \xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8C\x8D");
+    EXPECT_EQ(printable("a\x1B[2Jb\n"), "a\\x1B[2Jb\\x0A");
+    EXPECT_EQ(printable(std::string_view("\0", 1)), "\\x00");
+    EXPECT_EQ(printable("\xC2\x9B"), "\\xC2\\x9B") << "a C1 control character";
+    EXPECT_EQ(printable("\xC0\xAF"), "\\xC0\\xAF") << "overlong";
+    EXPECT_EQ(printable("\xED\xA0\x80"), "\\xED\\xA0\\x80") << "surrogate";
+    EXPECT_EQ(printable("\xE2\x82"), "\\xE2\\x82") << "cut short";
+    EXPECT_EQ(printable("\xF4\x90\x80\x80"), "\\xF4\\x90\\x80\\x80") << "past U+10FFFF";
+}
+
+TEST(PrintableTest, ShortensInTheMiddleBetweenCharacters) {
+    EXPECT_EQ(printable("abcdefghijkl", 6), "abcd...kl");
+    EXPECT_EQ(printable("abcdef", 6), "abcdef");
+    // Neither cut may fall into the two-byte character.
+    EXPECT_EQ(printable("abc\xC3\xA9xxxxxx\xC3\xA9z", 6), "abc...z");
+}
+
+TEST(ReportTest, KeepsAThousandOfASeverityAndCountsTheRest) {
+    Report report;
+    for (int i = 0; i < 1500; ++i) report.add(Severity::warning, "/a", "w");
+    EXPECT_FALSE(report.has_errors());
+    report.add(Severity::error, "/b", "e");
+    EXPECT_TRUE(report.has_errors());
+    const auto diagnostics = report.take();
+    ASSERT_EQ(diagnostics.size(), 1002u);
+    EXPECT_EQ(diagnostics[1000].where, "/b") << "a flood of warnings must not drown an error";
+    EXPECT_EQ(diagnostics[1001].message, "500 more warnings not shown");
+}
+
+}  // namespace
+}  // namespace orrery::test
