@@ -7,7 +7,7 @@
 #include <string>
 
 #include "film/film.hpp"
-#include "isa.hpp"
+#include "kernels/isa.hpp"
 #include "plan/plan.hpp"
 
 namespace orrery {

@@ -1,0 +1,97 @@
+// Move the chosen lanes of a vector to the front of memory.
+//
+// xsimd 8.1 has no compress. AVX-512 compresses in register and stores the whole vector, because compressing to memory
+// is micro-coded on Zen 4; AVX2 permutes by a table; the rest copies lane by lane.
+#pragma once
+
+#include <array>
+#include <bit>
+
+#include "kernels/lanes.hpp"
+
+namespace orrery::kernels {
+
+namespace detail {
+/// Entry m: byte i is the index of the i-th set bit of m (0 behind the last).
+consteval std::array<std::uint64_t, 256> make_compress_table() {
+    std::array<std::uint64_t, 256> table{};
+    for (unsigned m = 0; m < 256; ++m) {
+        unsigned out = 0;
+        for (unsigned lane = 0; lane < 8; ++lane)
+            if (m >> lane & 1u) table[m] |= std::uint64_t{lane} << (8 * out++);
+    }
+    return table;
+}
+inline constexpr std::array<std::uint64_t, 256> compress_table = make_compress_table();
+}  // namespace detail
+
+/// Stores the lanes of `value` whose bit is set in `chosen` at to[0], to[1], ... in lane order. Writes a whole vector:
+/// what lies between popcount(chosen) and the vector's width behind `to` is overwritten with anything.
+template <class V, class T>
+ORRERY_INLINE void compress_store(typename T::value_type* to, const T& value, std::uint32_t chosen) {
+    static_assert(sizeof(typename T::value_type) == 4);
+#if defined(__AVX512F__)
+    if constexpr (V::count == 16) {
+        const auto k = static_cast<__mmask16>(chosen);
+        if constexpr (std::is_floating_point_v<typename T::value_type>) {
+            _mm512_storeu_ps(to, _mm512_maskz_compress_ps(k, value));
+        } else {
+            _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(k, value));
+        }
+        return;
+    }
+#endif
+#if defined(__AVX2__)
+    if constexpr (V::count == 8) {
+        const __m256i lanes =
+            _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(detail::compress_table[chosen])));
+        if constexpr (std::is_floating_point_v<typename T::value_type>) {
+            _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(value, lanes));
+        } else {
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(value, lanes));
+        }
+        return;
+    }
+#endif
+    if constexpr (V::count == 4) {
+        alignas(16) typename T::value_type lane[4];
+        value.store_aligned(lane);
+        for (std::uint32_t left = chosen; left != 0; left &= left - 1) *to++ = lane[std::countr_zero(left)];
+    }
+}
+
+template <class V, class T>
+ORRERY_INLINE std::enable_if_t<std::is_arithmetic_v<T>> compress_store(T* to, T value, std::uint32_t chosen) {
+    if (chosen != 0) *to = value;
+}
+
+/// Moves the chosen lanes of every field of `from`, lanes i.., to the entries of `to` from `at` on.
+template <class V, class Queue>
+ORRERY_INLINE void move_record(const Queue& from, std::uint32_t i, const Queue& to, std::uint32_t at,
+                               std::uint32_t chosen) {
+    Queue::each_field([&](const char*, auto field) {
+        if (from.*field == nullptr) return;
+        using Element = std::remove_pointer_t<std::remove_cvref_t<decltype(from.*field)>>;
+        using T = std::conditional_t<std::is_floating_point_v<Element>, typename V::F, typename V::U>;
+        compress_store<V>(to.*field + at, load<T>(from.*field + i), chosen);
+    });
+}
+
+/// Adds each chosen lane to sums[index]. Lane by lane, in lane order: two lanes may name one sum.
+template <class V, class F, class U>
+ORRERY_INLINE void scatter_add(float* sums, const U& index, const F& value, std::uint32_t chosen) {
+    if constexpr (V::count == 1) {
+        if (chosen != 0) sums[index] += value;
+    } else {
+        alignas(64) typename V::Real lane[V::count];
+        alignas(64) typename V::Word at[V::count];
+        store(lane, value);
+        store(at, index);
+        for (; chosen != 0; chosen &= chosen - 1) {
+            const int i = std::countr_zero(chosen);
+            sums[at[i]] += lane[i];
+        }
+    }
+}
+
+}  // namespace orrery::kernels

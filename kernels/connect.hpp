@@ -1,0 +1,168 @@
+// Stage `shade`, last step: the vertices of a run towards one light -> shadow queue.
+//
+// Runs after `scatter`: a ray's origin is the vertex, `left` its sphere and side, and its throughput already holds the
+// surface's weight, so that what is missing is density of scattering over density of light sampling.
+#pragma once
+
+#include "kernels/compress.hpp"
+#include "kernels/glossy.hpp"
+#include "kernels/light.hpp"
+#include "kernels/vertex.hpp"
+
+namespace orrery::kernels {
+
+template <class Real>
+struct ConnectContext {
+    SphereTable<Real> spheres;
+    MaterialTable<Real> materials;
+    SlotTable<Real> slots;
+    std::uint32_t seed = 0;
+    std::uint32_t bounce = 0;
+    std::uint32_t light = 0;  ///< number of the light, for its random numbers
+    /// Whether the light sample competes with scattering that may find the light as well (mis).
+    bool competing = false;
+};
+
+/// Which density a vertex scatters with.
+enum class Response { diffuse, glossy };
+
+/// Scattering density per solid angle towards `direction`; the cosine is part of it. 0 below the horizon.
+template <class V, Response response>
+ORRERY_INLINE typename V::F response_pdf(const ConnectContext<typename V::Real>& context,
+                                         const LobeQueue<typename V::Real>& lobes, std::uint32_t i,
+                                         const typename V::U& sphere, const Vec3<typename V::F>& normal,
+                                         const Vec3<typename V::F>& direction) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const F cosine = dot(normal, direction);
+    if constexpr (response == Response::diffuse) {
+        return max(cosine, F(0)) * F(static_cast<typename V::Real>(std::numbers::inv_pi));
+    } else {
+        const U material = gather<U>(context.spheres.surface, sphere) & U(surface_material_mask);
+        const F beta = gather<F>(context.materials.roughness, material);
+        const auto lobe = load3<V>(lobes.x + i, lobes.y + i, lobes.z + i);
+        return glossy_pdf<V>(lobe, max(dot(lobe, normal), F(0)), beta, direction, cosine);
+    }
+}
+
+/// Appends the shadow rays of one vector of vertices whose lanes `chosen` are set.
+template <class V>
+ORRERY_INLINE std::uint32_t append_shadow(const ShadowQueue<typename V::Real>& queue, std::uint32_t size,
+                                          const Vec3<typename V::F>& origin, const Vec3<typename V::F>& direction,
+                                          const typename V::F& t_max, const Vec3<typename V::F>& radiance,
+                                          const typename V::U& left, const typename V::U& slot, std::uint32_t chosen) {
+    compress_store<V>(queue.ox + size, origin.x, chosen);
+    compress_store<V>(queue.oy + size, origin.y, chosen);
+    compress_store<V>(queue.oz + size, origin.z, chosen);
+    compress_store<V>(queue.dx + size, direction.x, chosen);
+    compress_store<V>(queue.dy + size, direction.y, chosen);
+    compress_store<V>(queue.dz + size, direction.z, chosen);
+    compress_store<V>(queue.t_max + size, t_max, chosen);
+    compress_store<V>(queue.r + size, radiance.x, chosen);
+    compress_store<V>(queue.g + size, radiance.y, chosen);
+    compress_store<V>(queue.b + size, radiance.z, chosen);
+    compress_store<V>(queue.left + size, left, chosen);
+    compress_store<V>(queue.slot + size, slot, chosen);
+    return size + static_cast<std::uint32_t>(std::popcount(chosen));
+}
+
+/// The vertices of a run, a vector at a time, and what is common to all lights.
+template <class V, class Sample>
+ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<typename V::Real>& context, Range run,
+                                        const RayQueue<typename V::Real>& rays,
+                                        const ShadowQueue<typename V::Real>& queue, const Sample& sample) {
+    using F = typename V::F;
+    using U = typename V::U;
+    std::uint32_t size = 0;
+    for (std::uint32_t n = 0; n < run.count; n += V::count) {
+        const std::uint32_t i = run.begin + n;
+        const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
+        const auto live = first_lanes<V>(run.count - n) && max(throughput.x, max(throughput.y, throughput.z)) != F(0);
+        const U left = choose(live, load<U>(rays.left + i), U(0u));
+        const U slot = choose(live, load<U>(rays.slot + i), U(0u));
+        const U id = left & U(no_sphere);
+        const auto inward = !words_equal(left, id);
+        const auto p = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
+        const auto centre = gather3<V>(context.spheres.cx, context.spheres.cy, context.spheres.cz, id);
+        const Vec3<F> outward = (p - centre) * (F(1) / gather<F>(context.spheres.radius, id));
+        const Vec3<F> normal = choose(inward, outward * F(-1), outward);
+        Vec3<F> direction, radiance;
+        F distance(0);
+        const auto lit = sample(i, p, normal, id, inward, slot, direction, distance, radiance) && live;
+        const std::uint32_t chosen = bits(lit);
+        if (chosen == 0) continue;
+        size = append_shadow<V>(queue, size, p, direction, distance,
+                                {throughput.x * radiance.x, throughput.y * radiance.y, throughput.z * radiance.z}, left,
+                                slot, chosen);
+    }
+    return size;
+}
+
+template <class V, Response response>
+std::uint32_t connect_point(const ConnectContext<typename V::Real>& context, const PointLight<typename V::Real>& light,
+                            Range run, const RayQueue<typename V::Real>& rays, const LobeQueue<typename V::Real>& lobes,
+                            const ShadowQueue<typename V::Real>& queue) {
+    using F = typename V::F;
+    using U = typename V::U;
+    using M = typename V::M;
+    const Vec3<F> at{F(light.px), F(light.py), F(light.pz)};
+    return connect_run<V>(context, run, rays, queue,
+                          [&](std::uint32_t i, const Vec3<F>& p, const Vec3<F>& normal, const U& id, const M&, const U&,
+                              Vec3<F>& direction, F& distance, Vec3<F>& radiance) -> M {
+                              const Vec3<F> to = at - p;
+                              const F distance2 = dot(to, to);
+                              distance = root(distance2);
+                              direction = to * (F(1) / distance);
+                              const F pdf = response_pdf<V, response>(context, lobes, i, id, normal, direction);
+                              radiance = Vec3<F>{F(light.r), F(light.g), F(light.b)} * (pdf / distance2);
+                              return pdf > F(0) && distance2 > F(0);
+                          });
+}
+
+template <class V, Response response, LightStrategy strategy>
+std::uint32_t connect_area(const ConnectContext<typename V::Real>& context, const AreaLight<typename V::Real>& light,
+                           Range run, const RayQueue<typename V::Real>& rays, const LobeQueue<typename V::Real>& lobes,
+                           const ShadowQueue<typename V::Real>& queue) {
+    using F = typename V::F;
+    using U = typename V::U;
+    using M = typename V::M;
+    const Sphere<F> sphere{{F(light.cx), F(light.cy), F(light.cz)}, F(light.radius)};
+    const RandomKey key{context.seed, Dimension::light, context.light};
+    return connect_run<V>(context, run, rays, queue,
+                          [&](std::uint32_t i, const Vec3<F>& p, const Vec3<F>& normal, const U& id, const M& inward,
+                              const U& slot, Vec3<F>& direction, F& distance, Vec3<F>& radiance) -> M {
+                              const auto random = random_for<V>(context.slots, key, context.bounce, slot);
+                              // On the light itself its side is known; elsewhere the power of the point tells, as in
+                              // `chord`.
+                              const auto own = words_equal(id, U(light.sphere));
+                              const auto within = power_of_point(p - sphere.centre, sphere.radius) < F(0);
+                              const auto inside = (own && inward) || (!own && within);
+                              LightSample<V> sample;
+                              if constexpr (strategy == LightStrategy::cone) {
+                                  sample = sample_light_cone<V>(p, sphere, random.x, random.y);
+                                  if (any(inside)) {
+                                      const auto by_area = sample_light_area<V>(p, sphere, inside, random.x, random.y);
+                                      sample.direction = choose(inside, by_area.direction, sample.direction);
+                                      sample.distance = choose(inside, by_area.distance, sample.distance);
+                                      sample.inverse_pdf = choose(inside, by_area.inverse_pdf, sample.inverse_pdf);
+                                      sample.valid = (inside && by_area.valid) || (!inside && sample.valid);
+                                  }
+                              } else {
+                                  sample = sample_light_area<V>(p, sphere, inside, random.x, random.y);
+                              }
+                              direction = sample.direction;
+                              distance = sample.distance;
+                              const F pdf = response_pdf<V, response>(context, lobes, i, id, normal, direction);
+                              F ratio = pdf * sample.inverse_pdf;
+                              // The balance heuristic's weight 1 / (1 + ratio); a ratio beyond 2^100 would be inf /
+                              // inf.
+                              if (context.competing) {
+                                  ratio = min(ratio, F(0x1p100f));
+                                  ratio = ratio / (F(1) + ratio);
+                              }
+                              radiance = Vec3<F>{F(light.r), F(light.g), F(light.b)} * ratio;
+                              return sample.valid && ratio > F(0) && (inside || !own);
+                          });
+}
+
+}  // namespace orrery::kernels

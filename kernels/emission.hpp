@@ -1,0 +1,66 @@
+// Stage `shade`, first step: the radiance a ray runs into, an emitter's or the enclosing volume's.
+#pragma once
+
+#include "kernels/compress.hpp"
+#include "kernels/light.hpp"
+#include "kernels/queues.hpp"
+
+namespace orrery::kernels {
+
+/// Weight of emission found by scattering with density `pdf` against light sampling with density `light_pdf`: the
+/// balance heuristic (Veach and Guibas 1995). It keeps pdf * weight bounded where pdf has a singularity.
+template <class V>
+ORRERY_INLINE typename V::F scattering_weight(const typename V::F& pdf, const typename V::F& light_pdf) {
+    using F = typename V::F;
+    const auto whole = pdf > F(std::numeric_limits<typename V::Real>::max());
+    return choose(whole, F(1), F(1) / (F(1) + light_pdf / pdf));
+}
+
+template <class V>
+ORRERY_INLINE void add_radiance(const SlotTable<typename V::Real>& slots, const typename V::U& slot,
+                                const Vec3<typename V::F>& radiance, std::uint32_t chosen) {
+    scatter_add<V>(slots.r, slot, radiance.x, chosen);
+    scatter_add<V>(slots.g, slot, radiance.y, chosen);
+    scatter_add<V>(slots.b, slot, radiance.z, chosen);
+}
+
+template <class V>
+void emission(const SphereTable<typename V::Real>& spheres, const EmissionTable<typename V::Real>& lights,
+              LightStrategy strategy, const RayQueue<typename V::Real>& rays, const HitQueue<typename V::Real>& hits,
+              std::uint32_t count, const SlotTable<typename V::Real>& slots) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const Vec3<F> background{F(lights.background_r), F(lights.background_g), F(lights.background_b)};
+    for (std::uint32_t i = 0; i < count; i += V::count) {
+        const auto live = first_lanes<V>(count - i);
+        const U hit = load<U>(hits.id + i);
+        const auto missed = words_equal(hit, U(no_sphere)) && live;
+        const U id = choose(live && !missed, hit & U(no_sphere), U(0u));
+        if (lights.has_background && any(missed)) {
+            const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
+            add_radiance<V>(slots, load<U>(rays.slot + i),
+                            {throughput.x * background.x, throughput.y * background.y, throughput.z * background.z},
+                            bits(missed));
+        }
+        if (!lights.has_emitters) continue;
+        const U surface = gather<U>(spheres.surface, id);
+        const auto emits = live && !missed && words_equal(surface & U(surface_emits), U(surface_emits));
+        if (!any(emits)) continue;
+        F weight(1);
+        if (rays.pdf != nullptr) {
+            const auto inside = !words_equal(hit, id);
+            const F density =
+                light_pdf<V>(strategy == LightStrategy::cone, load3<V>(rays.ox + i, rays.oy + i, rays.oz + i),
+                             load3<V>(rays.dx + i, rays.dy + i, rays.dz + i), load<F>(hits.t + i),
+                             gather_sphere<V>(spheres, id), inside);
+            weight = scattering_weight<V>(load<F>(rays.pdf + i), density);
+        }
+        const U light = gather<U>(spheres.light, id);
+        const auto radiance = gather3<V>(lights.r, lights.g, lights.b, light);
+        const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i) * weight;
+        add_radiance<V>(slots, load<U>(rays.slot + i),
+                        {throughput.x * radiance.x, throughput.y * radiance.y, throughput.z * radiance.z}, bits(emits));
+    }
+}
+
+}  // namespace orrery::kernels

@@ -1,0 +1,60 @@
+// Stage `generate`: camera -> ray queue, one ray per slot.
+#pragma once
+
+#include "kernels/queues.hpp"
+#include "kernels/random.hpp"
+#include "kernels/sampling.hpp"
+
+namespace orrery::kernels {
+
+/// A thin lens of radius lens_radius: the pinhole ray's point on the plane in focus is kept, its origin moves over the
+/// lens. `at` is the pinhole ray's point on the image plane at distance 1.
+template <class V, bool has_lens>
+ORRERY_INLINE void camera_ray(const CameraTable<typename V::Real>& camera, const typename V::F& x,
+                              const typename V::F& y, const RandomNumbers<typename V::F>& random,
+                              Vec3<typename V::F>& origin, Vec3<typename V::F>& direction) {
+    using F = typename V::F;
+    const Vec3<F> right{F(camera.xx), F(camera.xy), F(camera.xz)};
+    const Vec3<F> up{F(camera.yx), F(camera.yy), F(camera.yz)};
+    origin = {F(camera.px), F(camera.py), F(camera.pz)};
+    direction = along(along(Vec3<F>{F(camera.zx), F(camera.zy), F(camera.zz)}, x, right), y, up);
+    if constexpr (has_lens) {
+        const auto lens = sample_disk<V>(random.z, random.w);
+        const F lx = F(camera.lens_radius) * lens.cos;
+        const F ly = F(camera.lens_radius) * lens.sin;
+        origin = along(along(origin, lx, right), ly, up);
+        // (focus point - lens point) / focal distance
+        const F inverse(typename V::Real(1) / camera.focal_distance);
+        direction = along(along(direction, F(0) - lx * inverse, right), F(0) - ly * inverse, up);
+    }
+    direction = unit(direction);
+}
+
+template <class V, bool has_lens>
+void generate(const CameraTable<typename V::Real>& camera, const SlotTable<typename V::Real>& slots,
+              std::uint32_t count, std::uint32_t seed, const RayQueue<typename V::Real>& rays) {
+    using F = typename V::F;
+    using U = typename V::U;
+    using Word = typename V::Word;
+    const RandomKey key{seed, Dimension::camera, 0};
+    const U lane = truncate_to_word(load<F>(detail::iota_table<typename V::Real>));
+    const F zero(0), one(1);
+    for (std::uint32_t i = 0; i < count; i += V::count) {
+        const auto random = random_block<V>(key, load<U>(slots.pixel + i), load<U>(slots.sample + i), U(Word{0}));
+        const F x = mul_add(random.x, F(camera.cell_width), load<F>(slots.plane_x + i));
+        const F y = mul_add(random.y, F(camera.cell_height), load<F>(slots.plane_y + i));
+        Vec3<F> o, d;
+        camera_ray<V, has_lens>(camera, x, y, random, o, d);
+        store3<V>(rays.ox + i, rays.oy + i, rays.oz + i, o);
+        store3<V>(rays.dx + i, rays.dy + i, rays.dz + i, d);
+        store3<V>(rays.tr + i, rays.tg + i, rays.tb + i, {one, one, one});
+        // What the camera sees of a light competes with no light sample.
+        if (rays.pdf != nullptr) store(rays.pdf + i, F(std::numeric_limits<typename V::Real>::infinity()));
+        if (rays.eta_scale != nullptr) store(rays.eta_scale + i, one);
+        store(rays.left + i, U(Word{no_sphere}));
+        store(rays.slot + i, lane + U(Word{i}));
+        store3<V>(slots.r + i, slots.g + i, slots.b + i, {zero, zero, zero});
+    }
+}
+
+}  // namespace orrery::kernels

@@ -1,0 +1,62 @@
+// The glossy lobe of spec section 3: unit(R + beta S), S uniform on the unit sphere, conditioned on the reflecting
+// side.
+#pragma once
+
+#include "kernels/sampling.hpp"
+
+namespace orrery::kernels {
+
+/// Probability that R + beta S falls on the side of n, (1 + min(1, R.n / beta)) / 2.
+template <class F>
+ORRERY_INLINE F glossy_side_probability(const F& lobe_dot_n, const F& beta) {
+    return mul_add(F(0.5f), min(lobe_dot_n / beta, F(1)), F(0.5f));
+}
+
+template <class F>
+struct GlossySample {
+    Vec3<F> direction;  ///< unit length, on the side of n
+    F pdf;              ///< per solid angle, conditioned; +inf on the lobe's singular edge
+};
+
+/// `lobe` unit length with lobe.n = lobe_dot_n >= 0, 0 < beta < 1.
+///
+/// The component of S along n is uniform on [-min(1, R.n/beta), 1], the azimuth uniform. With mu = R.S the perturbed
+/// vector has the length sqrt(1 + 2 beta mu + beta^2), so sin^2 theta = beta^2 (1 - mu^2) / length^2 and
+/// sqrt(beta^2 - sin^2 theta) = beta |mu + beta| / length: the density of the sampled direction follows from mu without
+/// the cancellation that evaluating it from the direction has near the singular edge mu = -beta.
+template <class V>
+ORRERY_INLINE GlossySample<typename V::F> sample_glossy(const Vec3<typename V::F>& lobe, const Vec3<typename V::F>& n,
+                                                        const typename V::F& lobe_dot_n, const typename V::F& beta,
+                                                        const typename V::F& u, const typename V::F& v) {
+    using F = typename V::F;
+    const F lowest = min(lobe_dot_n / beta, F(1));
+    const F h = mul_add(u, F(1) + lowest, F(0) - lowest);
+    const F across = root(max(neg_mul_add(h, h, F(1)), F(0)));
+    const Vec3<F> s = in_frame(n, h, across, sincos_turns<V>(v));
+    const Vec3<F> sum = along(lobe, beta, s);
+    const F mu = dot(lobe, s);
+    const F length2 = dot(sum, sum);
+    const F inverse_length = F(1) / root(length2);
+    const F sin2 = beta * beta * neg_mul_add(mu, mu, F(1)) * (inverse_length * inverse_length);
+    const F numerator = neg_mul_add(F(2), sin2, mul_add(beta, beta, F(1)));
+    const F denominator =
+        F(static_cast<typename V::Real>(2 * std::numbers::pi)) * beta * beta * magnitude(mu + beta) * inverse_length;
+    return {sum * inverse_length, numerator / (denominator * glossy_side_probability(lobe_dot_n, beta))};
+}
+
+/// Density of `direction` (unit length), conditioned on the side of n; 0 on the other side and outside the lobe.
+template <class V>
+ORRERY_INLINE typename V::F glossy_pdf(const Vec3<typename V::F>& lobe, const typename V::F& lobe_dot_n,
+                                       const typename V::F& beta, const Vec3<typename V::F>& direction,
+                                       const typename V::F& direction_dot_n) {
+    using F = typename V::F;
+    const Vec3<F> across = cross(lobe, direction);
+    const F sin2 = dot(across, across);
+    const F beta2 = beta * beta;
+    const auto within = beta2 > sin2 && dot(lobe, direction) > F(0) && direction_dot_n > F(0);
+    const F numerator = neg_mul_add(F(2), sin2, F(1) + beta2);
+    const F denominator = F(static_cast<typename V::Real>(2 * std::numbers::pi)) * beta * root(max(beta2 - sin2, F(0)));
+    return choose(within, numerator / (denominator * glossy_side_probability(lobe_dot_n, beta)), F(0));
+}
+
+}  // namespace orrery::kernels

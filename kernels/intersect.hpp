@@ -1,0 +1,101 @@
+// Stage `intersect`: rays -> closest hits. Lanes are rays; the spheres pass by one at a time.
+#pragma once
+
+#include <limits>
+
+#include "kernels/queues.hpp"
+#include "kernels/sphere.hpp"
+
+namespace orrery::kernels {
+
+/// The closest hit so far, t = num / den.
+template <class V>
+struct Closest {
+    typename V::F num, den;
+    typename V::U id;  ///< with inside_bit
+};
+
+template <class V>
+ORRERY_INLINE void keep_closer(Closest<V>& best, const Root<V>& root, std::uint32_t k) {
+    using U = typename V::U;
+    const auto closer = root.exists && (root.num * best.den < best.num * root.den);
+    best.num = choose(closer, root.num, best.num);
+    best.den = choose(closer, root.den, best.den);
+    best.id = choose(closer, choose(root.inside, U(k | inside_bit), U(k)), best.id);
+}
+
+/// Closest hit with t_min < t < t_max, t_max >= 0. `left` is the sphere each ray leaves (inside_bit: inward), no_sphere
+/// for none; it is meaningful only for segments that begin on it, so Start is FromOrigin wherever left names a sphere.
+template <class V, class Start>
+ORRERY_INLINE Closest<V> closest_hit(const SphereTable<typename V::Real>& spheres, const Vec3<typename V::F>& o,
+                                     const Vec3<typename V::F>& d, const typename V::U& left, const Start& t_min,
+                                     const typename V::F& t_max) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const F zero(0);
+    Closest<V> best{t_max, F(1), U(no_sphere)};
+
+    // What a ray leaves inward it meets again, at the far root and nowhere else.
+    const U left_id = left & U(no_sphere);
+    const auto inward = !words_equal(left, left_id);
+    if (any(inward)) {
+        const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
+        const auto closer = inward && t < best.num;
+        best.num = choose(closer, t, best.num);
+        best.id = choose(closer, left, best.id);
+    }
+    for (std::uint32_t k = 0; k < spheres.count; ++k) {
+        const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
+        const auto candidate = line.disc > zero && (line.b > zero || line.c < zero) && !words_equal(left_id, U(k));
+        // Most spheres miss all lanes of a coherent wave: the square root is worth a branch.
+        if (any(candidate)) keep_closer<V>(best, first_root<V>(line, root(line.disc), t_min, candidate), k);
+    }
+    return best;
+}
+
+/// Whether any sphere but `skip` (no_sphere: none) is met with t_min < t < t_max.
+template <class V, class Start>
+ORRERY_INLINE typename V::M any_hit(const SphereTable<typename V::Real>& spheres, const Vec3<typename V::F>& o,
+                                    const Vec3<typename V::F>& d, const typename V::U& left, const Start& t_min,
+                                    const typename V::F& t_max, std::uint32_t skip, const typename V::M& live) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const F zero(0);
+    const U left_id = left & U(no_sphere);
+    const auto inward = live && !words_equal(left, left_id) && !words_equal(left_id, U(skip));
+    auto blocked = !live;
+    if (any(inward)) {
+        const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
+        blocked = blocked || (inward && t < t_max);
+    }
+    for (std::uint32_t k = 0; k < spheres.count; ++k) {
+        if (k == skip) continue;
+        const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
+        const auto candidate = line.disc > zero && (line.b > zero || line.c < zero) && !words_equal(left_id, U(k));
+        if (!any(candidate)) continue;
+        const auto first = first_root<V>(line, root(line.disc), t_min, candidate);
+        blocked = blocked || (first.exists && first.num < t_max * first.den);
+        if (all(blocked)) break;
+    }
+    return blocked && live;
+}
+
+template <class V>
+void intersect(const SphereTable<typename V::Real>& spheres, const RayQueue<typename V::Real>& rays,
+               std::uint32_t count, const HitQueue<typename V::Real>& hits) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const F infinity(std::numeric_limits<typename V::Real>::infinity());
+    for (std::uint32_t i = 0; i < count; i += V::count) {
+        const auto o = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
+        const auto d = load3<V>(rays.dx + i, rays.dy + i, rays.dz + i);
+        // Lanes behind the last ray hold old rays: their result is never read, but their ids must be valid ones.
+        const auto live = first_lanes<V>(count - i);
+        const U left = choose(live, load<U>(rays.left + i), U(no_sphere));
+        const auto best = closest_hit<V>(spheres, o, d, left, FromOrigin{}, infinity);
+        store(hits.t + i, best.num / best.den);
+        store(hits.id + i, choose(live, best.id, U(no_sphere)));
+    }
+}
+
+}  // namespace orrery::kernels

@@ -1,0 +1,69 @@
+#include "kernels/isa.hpp"
+
+#include <stdexcept>
+
+#include "kernels/stages.hpp"
+
+namespace orrery {
+
+namespace {
+constexpr std::array<std::string_view, 4> names = {"scalar", "sse2", "avx2", "avx512"};
+}
+
+std::string_view isa_name(Isa isa) { return names[static_cast<std::size_t>(isa)]; }
+
+std::optional<Isa> isa_from_name(std::string_view name) {
+    for (const Isa isa : all_isas)
+        if (isa_name(isa) == name) return isa;
+    return std::nullopt;
+}
+
+bool isa_supported(Isa isa) {
+    switch (isa) {
+        case Isa::scalar:
+            return true;
+#if ORRERY_X86
+        case Isa::sse2:
+            return true;
+        case Isa::avx2:
+            return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+        case Isa::avx512:
+            return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                   __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#endif
+        default:
+            return false;
+    }
+}
+
+Isa best_isa() {
+    Isa best = Isa::scalar;
+    for (const Isa isa : all_isas)
+        if (isa_supported(isa)) best = isa;
+    return best;
+}
+
+namespace kernels {
+
+extern const Stages<float> scalar_stages;
+#if ORRERY_X86
+extern const Stages<float> sse2_stages, avx2_stages, avx512_stages;
+#endif
+
+const Stages<float>& stages_for(Isa isa) {
+    switch (isa) {
+#if ORRERY_X86
+        case Isa::sse2:
+            return sse2_stages;
+        case Isa::avx2:
+            return avx2_stages;
+        case Isa::avx512:
+            return avx512_stages;
+#endif
+        default:
+            return scalar_stages;
+    }
+}
+
+}  // namespace kernels
+}  // namespace orrery

@@ -1,0 +1,85 @@
+// Sampling a spherical light from a point, and the density of that sampling: one pair per strategy.
+#pragma once
+
+#include "kernels/sampling.hpp"
+#include "kernels/sphere.hpp"
+
+namespace orrery::kernels {
+
+template <class V>
+struct LightSample {
+    Vec3<typename V::F> direction;  ///< unit length
+    typename V::F distance;         ///< to the sampled point of the light
+    typename V::F inverse_pdf;      ///< 1 / density per solid angle, > 0 where valid
+    typename V::M valid;
+};
+
+/// Uniform over the surface, p = 1/A. From outside only the half facing `p` is seen, from inside all of it.
+template <class V>
+ORRERY_INLINE LightSample<V> sample_light_area(const Vec3<typename V::F>& p, const Sphere<typename V::F>& light,
+                                               const typename V::M& inside, const typename V::F& u,
+                                               const typename V::F& v) {
+    using F = typename V::F;
+    const Vec3<F> n = sample_unit_sphere<V>(u, v);
+    const Vec3<F> to = along(light.centre, light.radius, n) - p;
+    const F distance2 = dot(to, to);
+    const F distance = root(distance2);
+    const Vec3<F> direction = to * (F(1) / distance);
+    const F cosine = dot(n, direction);
+    const F facing = choose(inside, cosine, F(0) - cosine);
+    const F area = F(static_cast<typename V::Real>(4 * std::numbers::pi)) * light.radius * light.radius;
+    return {direction, distance, area * facing / distance2, facing > F(0) && distance > F(0)};
+}
+
+/// The cone a light subtends from outside.
+template <class F>
+struct LightCone {
+    F distance2;         ///< to the centre, squared
+    F one_minus_cosine;  ///< of the half angle
+};
+/// `f` = p - centre, `c` its power > 0.
+template <class F>
+ORRERY_INLINE LightCone<F> light_cone(const Vec3<F>& f, const F& c, const F& radius) {
+    const F distance2 = dot(f, f);
+    const F inverse = F(1) / distance2;
+    // 1 - r^2/d^2 = c/d^2: exact digits however close the light.
+    return {distance2, one_minus_cosine(radius * radius * inverse, root(max(c, F(0)) * inverse))};
+}
+
+/// Uniform over the subtended solid angle, p = 1 / (2 pi (1 - cos)). From outside only.
+template <class V>
+ORRERY_INLINE LightSample<V> sample_light_cone(const Vec3<typename V::F>& p, const Sphere<typename V::F>& light,
+                                               const typename V::F& u, const typename V::F& v) {
+    using F = typename V::F;
+    const Vec3<F> f = p - light.centre;
+    const F c = power_of_point(f, light.radius);
+    const auto cone = light_cone(f, c, light.radius);
+    const F d = root(cone.distance2);
+    const Vec3<F> axis = f * (F(-1) / d);
+    const F x = u * cone.one_minus_cosine;  // 1 - cos of the sampled angle
+    const F cosine = F(1) - x;
+    const F sin2 = x * (F(2) - x);
+    const Vec3<F> direction = in_frame(axis, cosine, root(sin2), sincos_turns<V>(v));
+    const F s = root(max(neg_mul_add(cone.distance2, sin2, light.radius * light.radius), F(0)));
+    return {direction, c / mul_add(d, cosine, s),
+            F(static_cast<typename V::Real>(2 * std::numbers::pi)) * cone.one_minus_cosine, c > F(0)};
+}
+
+/// Density with which a direction that meets the light after t is sampled from `origin`: what multiple importance
+/// sampling compares. `inside`: the origin lies within the light.
+template <class V>
+ORRERY_INLINE typename V::F light_pdf(bool cone_sampling, const Vec3<typename V::F>& origin,
+                                      const Vec3<typename V::F>& direction, const typename V::F& t,
+                                      const Sphere<typename V::F>& light, const typename V::M& inside) {
+    using F = typename V::F;
+    using Real = typename V::Real;
+    const auto line = chord(origin, direction, light);
+    const F cosine = root(max(line.disc, F(0)));  // times the radius
+    const F area_pdf = t * t / (F(static_cast<Real>(4 * std::numbers::pi)) * light.radius * cosine);
+    if (!cone_sampling) return area_pdf;
+    const auto cone = light_cone(origin - light.centre, line.c, light.radius);
+    const F cone_pdf = F(1) / (F(static_cast<Real>(2 * std::numbers::pi)) * cone.one_minus_cosine);
+    return choose(inside, area_pdf, cone_pdf);
+}
+
+}  // namespace orrery::kernels

@@ -1,0 +1,141 @@
+// The queues between the stages: structures of arrays.
+//
+// Each queue's fields are declared once, with unit and range, and listed once in each_field, which calls its argument
+// with every field's name and member pointer; allocation, compaction, sorting and the bytes-per-ray figure are written
+// on top of that list. All fields are as wide as a number. A field the plan does not need is a null pointer.
+//
+// Common to all queues: owned by one thread; allocated once per thread; capacities are whole vectors of the widest
+// instruction set, so kernels have no tail code and may write garbage behind the last item. Entries are only ever
+// appended or compacted in order, never reordered among equals: the order of a path's contributions is its own history.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/tables.hpp"
+
+namespace orrery::kernels {
+
+/// The widest vector any kernel uses, in numbers; every capacity is a multiple.
+inline constexpr std::uint32_t widest = 16;
+
+constexpr std::uint32_t round_up(std::uint32_t n) { return (n + widest - 1) / widest * widest; }
+
+/// Rays in flight, one bounce number for all (Whitted: one live ray per slot).
+template <class Real>
+struct RayQueue {
+    using Word = WordOf<Real>;
+    Real *ox, *oy, *oz;  ///< origin, scene units
+    Real *dx, *dy, *dz;  ///< direction, unit length
+    Real *tr, *tg, *tb;  ///< throughput, >= 0; all zero marks a dead ray
+    Real* pdf;           ///< density of the scattering that made the direction, per solid angle, as far as emission
+                         ///< found by this ray competes with light samples: +inf counts it whole, 0 not at all.
+                         ///< Null where the plan has no such competition.
+    Real* eta_scale;     ///< product of the (eta_i / eta_t)^2 inside the throughput. Null without dielectrics.
+    Word* left;          ///< sphere the ray leaves, inside_bit set when it runs inward; no_sphere from the camera
+    Word* slot;          ///< which (pixel, sample) of the wave
+
+    template <class Visit>
+    static void each_field(Visit&& visit) {
+        visit("ox", &RayQueue::ox), visit("oy", &RayQueue::oy), visit("oz", &RayQueue::oz);
+        visit("dx", &RayQueue::dx), visit("dy", &RayQueue::dy), visit("dz", &RayQueue::dz);
+        visit("tr", &RayQueue::tr), visit("tg", &RayQueue::tg), visit("tb", &RayQueue::tb);
+        visit("pdf", &RayQueue::pdf), visit("eta_scale", &RayQueue::eta_scale);
+        visit("left", &RayQueue::left), visit("slot", &RayQueue::slot);
+    }
+};
+
+/// What each ray of a RayQueue met, in the same order.
+template <class Real>
+struct HitQueue {
+    using Word = WordOf<Real>;
+    Real* t;   ///< distance, > 0; +inf where nothing was hit
+    Word* id;  ///< sphere, inside_bit set when met from inside; no_sphere where nothing was hit
+
+    template <class Visit>
+    static void each_field(Visit&& visit) {
+        visit("t", &HitQueue::t), visit("id", &HitQueue::id);
+    }
+};
+
+/// The unperturbed direction of the lobe a glossy or translucent vertex scattered into, beside the RayQueue. Only
+/// present where lights are sampled from such vertices.
+template <class Real>
+struct LobeQueue {
+    using Word = WordOf<Real>;
+    Real *x, *y, *z;  ///< unit length
+
+    template <class Visit>
+    static void each_field(Visit&& visit) {
+        visit("lobe_x", &LobeQueue::x), visit("lobe_y", &LobeQueue::y), visit("lobe_z", &LobeQueue::z);
+    }
+};
+
+/// Segments towards one light, with the radiance that arrives if nothing blocks them.
+template <class Real>
+struct ShadowQueue {
+    using Word = WordOf<Real>;
+    Real *ox, *oy, *oz;  ///< origin, scene units
+    Real *dx, *dy, *dz;  ///< direction, unit length
+    Real* t_max;         ///< distance to the light
+    Real *r, *g, *b;     ///< contribution if unoccluded
+    Word* left;          ///< as in RayQueue
+    Word* slot;
+
+    template <class Visit>
+    static void each_field(Visit&& visit) {
+        visit("ox", &ShadowQueue::ox), visit("oy", &ShadowQueue::oy), visit("oz", &ShadowQueue::oz);
+        visit("dx", &ShadowQueue::dx), visit("dy", &ShadowQueue::dy), visit("dz", &ShadowQueue::dz);
+        visit("t_max", &ShadowQueue::t_max);
+        visit("r", &ShadowQueue::r), visit("g", &ShadowQueue::g), visit("b", &ShadowQueue::b);
+        visit("left", &ShadowQueue::left), visit("slot", &ShadowQueue::slot);
+    }
+};
+
+/// The (pixel, sample) pairs of a wave, indexed by slot.
+template <class Real>
+struct SlotTable {
+    using Word = WordOf<Real>;
+    Word* pixel;              ///< y * width + x
+    Word* sample;             ///< sample number within the pixel
+    Word* node;               ///< Whitted: node of the ray tree the slot's ray is, root 1, children 2n and 2n + 1
+    Real *plane_x, *plane_y;  ///< corner of the sample's cell on the image plane at distance 1
+    Real *r, *g, *b;          ///< radiance gathered so far
+
+    template <class Visit>
+    static void each_field(Visit&& visit) {
+        visit("pixel", &SlotTable::pixel), visit("sample", &SlotTable::sample), visit("node", &SlotTable::node);
+        visit("plane_x", &SlotTable::plane_x), visit("plane_y", &SlotTable::plane_y);
+        visit("r", &SlotTable::r), visit("g", &SlotTable::g), visit("b", &SlotTable::b);
+    }
+};
+
+/// Whitted's postponed branches: a small stack per slot, entry `level * slots + slot`.
+template <class Real>
+struct BranchStack {
+    using Word = WordOf<Real>;
+    std::uint32_t slots = 0;   ///< stride between levels
+    std::uint32_t levels = 0;  ///< the greatest depth: depth-first, one branch per level is pending at most
+    Word* height = nullptr;    ///< by slot: pending branches
+    RayQueue<Real> rays{};     ///< levels * slots entries
+    Word* node = nullptr;      ///< by entry
+};
+
+/// A run of a queue; begin is a multiple of `widest`.
+struct Range {
+    std::uint32_t begin = 0;
+    std::uint32_t count = 0;
+};
+
+/// A ray queue split by way of scattering, in enum order. Between runs lies anything.
+struct Runs {
+    Range run[scattering_count];
+};
+
+/// What a run of `count` records takes of a queue: compress writes whole vectors, up to one less than `widest` records
+/// behind the last, and the next run begins on a whole vector behind that.
+constexpr std::uint32_t padded_run(std::uint32_t count) { return round_up(count + widest - 1); }
+
+/// What a ray queue must hold for a wave of `slots`, whichever way it is sorted.
+constexpr std::uint32_t ray_capacity(std::uint32_t slots) { return round_up(slots) + scattering_count * padded_run(1); }
+
+}  // namespace orrery::kernels

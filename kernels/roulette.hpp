@@ -1,0 +1,42 @@
+// Stage `roulette`: kill, weigh, compact the survivors to the front.
+#pragma once
+
+#include "kernels/compress.hpp"
+#include "kernels/vertex.hpp"
+
+namespace orrery::kernels {
+
+/// Compacts the runs of `rays`, in order, to its front and returns how many rays survive. Dead rays (no throughput) go
+/// always; with `play`, a ray survives with probability q = min(1, max component of its throughput without the
+/// radiance scaling by eta) and is divided by q. In place: a survivor never moves back.
+template <class V>
+std::uint32_t roulette(const SlotTable<typename V::Real>& slots, std::uint32_t seed, std::uint32_t bounce, bool play,
+                       const Runs& runs, const RayQueue<typename V::Real>& rays) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const RandomKey key{seed, Dimension::roulette, 0};
+    std::uint32_t size = 0;
+    for (const Range& run : runs.run) {
+        for (std::uint32_t n = 0; n < run.count; n += V::count) {
+            const std::uint32_t i = run.begin + n;
+            const auto in_run = first_lanes<V>(run.count - n);
+            const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
+            const F carried = max(throughput.x, max(throughput.y, throughput.z));
+            auto alive = in_run && carried != F(0);  // a throughput that is no number lives on, to be counted
+            if (play && any(alive)) {
+                const F scale = rays.eta_scale != nullptr ? load<F>(rays.eta_scale + i) : F(1);
+                const F q = min(carried / scale, F(1));
+                const U slot = choose(in_run, load<U>(rays.slot + i), U(0u));
+                alive = alive && random_for<V>(slots, key, bounce, slot).x < q;
+                store3<V>(rays.tr + i, rays.tg + i, rays.tb + i, throughput * (F(1) / q));
+            }
+            const std::uint32_t chosen = bits(alive);
+            if (chosen == 0) continue;
+            move_record<V>(rays, i, rays, size, chosen);
+            size += static_cast<std::uint32_t>(std::popcount(chosen));
+        }
+    }
+    return size;
+}
+
+}  // namespace orrery::kernels

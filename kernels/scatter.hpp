@@ -1,0 +1,131 @@
+// Stage `shade`, third step: each hit of a run becomes the ray that leaves it. One kernel per way of scattering, in
+// place.
+#pragma once
+
+#include <limits>
+
+#include "kernels/fresnel.hpp"
+#include "kernels/glossy.hpp"
+#include "kernels/vertex.hpp"
+
+namespace orrery::kernels {
+
+/// What all scattering kernels of a plan share.
+template <class Real>
+struct ScatterContext {
+    SphereTable<Real> spheres;
+    MaterialTable<Real> materials;
+    SlotTable<Real> slots;
+    std::uint32_t seed = 0;
+    std::uint32_t bounce = 0;
+    /// Whether emission found by scattering competes with light samples at every non-delta vertex (mis) or is not
+    /// counted behind diffuse ones (nee). Read only where RayQueue::pdf is present.
+    bool competing_pdf = false;
+};
+
+/// What a scattering event makes of a ray.
+template <class V>
+struct Scattered {
+    Vec3<typename V::F> direction;  ///< unit length
+    Vec3<typename V::F> weight;     ///< throughput factor, radiance scaling by eta included
+    typename V::F pdf;              ///< see RayQueue::pdf
+    typename V::F eta_scale;        ///< (eta_i / eta_t)^2 of this event, 1 unless it crosses an interface
+    typename V::U side;             ///< inside_bit where the ray leaves inward
+    Vec3<typename V::F> lobe;       ///< unperturbed direction, glossy and translucent only
+};
+
+template <class V>
+ORRERY_INLINE Vec3<typename V::F> reflectance_of(const MaterialTable<typename V::Real>& materials,
+                                                 const typename V::U& material) {
+    return gather3<V>(materials.rho_r, materials.rho_g, materials.rho_b, material);
+}
+
+template <class V, Scattering kind>
+ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<typename V::Real>& context, const Vertex<V>& vertex,
+                                      const Vec3<typename V::F>& direction, const typename V::U& slot) {
+    using F = typename V::F;
+    using U = typename V::U;
+    using Real = typename V::Real;
+    const F infinity(std::numeric_limits<Real>::infinity());
+    const F one(1);
+    const auto& materials = context.materials;
+    const Vec3<F> rho = reflectance_of<V>(materials, vertex.material);
+    if constexpr (kind == Scattering::specular) {
+        const Vec3<F> mirror = reflected(direction, vertex.normal, vertex.cosine);
+        return {unit(mirror), rho, infinity, one, vertex.side, mirror};
+    }
+    const auto random = random_for<V>(context.slots, {context.seed, Dimension::scattering, 0}, context.bounce, slot);
+    if constexpr (kind == Scattering::diffuse) {
+        const auto sample = sample_cosine<V>(vertex.normal, random.x, random.y);
+        const F pdf = context.competing_pdf ? sample.cosine * F(static_cast<Real>(std::numbers::inv_pi)) : F(0);
+        return {sample.direction, rho, pdf, one, vertex.side, sample.direction};
+    } else {
+        Vec3<F> lobe = reflected(direction, vertex.normal, vertex.cosine);
+        F lobe_cosine = vertex.cosine;
+        auto weight = rho;
+        auto scale = one;
+        U side = vertex.side;
+        Vec3<F> normal = vertex.normal;  // on the side the lobe leaves
+        if constexpr (kind == Scattering::dielectric || kind == Scattering::translucent) {
+            const F eta = gather<F>(materials.eta, vertex.material);
+            const auto from_outside = words_equal(vertex.side, U(0u));
+            const auto at = interface_at<V>(vertex.cosine, choose(from_outside, eta, one / eta));
+            // One lobe at random, chosen with probability F: what F multiplies cancels.
+            const auto reflects = random.z < at.reflectance;
+            const Vec3<F> tau = gather3<V>(materials.tau_r, materials.tau_g, materials.tau_b, vertex.material);
+            scale = choose(reflects, one, at.inverse_eta * at.inverse_eta);
+            weight = choose(reflects, rho, tau * scale);
+            lobe = choose(reflects, lobe, refracted<V>(direction, vertex.normal, vertex.cosine, at));
+            lobe_cosine = choose(reflects, vertex.cosine, at.cosine_t);
+            normal = choose(reflects, normal, normal * F(-1));
+            side = choose(reflects, side, side ^ U(inside_bit));
+        }
+        lobe = unit(lobe);
+        if constexpr (kind == Scattering::dielectric) {
+            return {lobe, weight, infinity, scale, side, lobe};
+        } else {
+            const F beta = gather<F>(materials.roughness, vertex.material);
+            const auto sample = sample_glossy<V>(lobe, normal, lobe_cosine, beta, random.x, random.y);
+            return {sample.direction, weight, context.competing_pdf ? sample.pdf : infinity, scale, side, lobe};
+        }
+    }
+}
+
+template <class V, Scattering kind>
+void scatter(const ScatterContext<typename V::Real>& context, Range run, const RayQueue<typename V::Real>& rays,
+             const HitQueue<typename V::Real>& hits, const LobeQueue<typename V::Real>& lobes) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const U zero(0u);
+    for (std::uint32_t n = 0; n < run.count; n += V::count) {
+        const std::uint32_t i = run.begin + n;
+        const auto in_run = first_lanes<V>(run.count - n);
+        // An unsorted run holds its misses too; they leave with no throughput.
+        const U met = load<U>(hits.id + i);
+        const auto live = in_run && !words_equal(met, U(no_sphere));
+        const U hit = choose(live, met, zero);
+        const U slot = choose(in_run, load<U>(rays.slot + i), zero);
+        const auto o = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
+        const auto d = load3<V>(rays.dx + i, rays.dy + i, rays.dz + i);
+        const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
+
+        const auto vertex = vertex_at<V>(context.spheres, o, d, load<F>(hits.t + i), hit);
+        const auto out = scatter_at<V, kind>(context, vertex, d, slot);
+
+        store3<V>(rays.ox + i, rays.oy + i, rays.oz + i, vertex.position);
+        store3<V>(rays.dx + i, rays.dy + i, rays.dz + i, out.direction);
+        store3<V>(rays.tr + i, rays.tg + i, rays.tb + i,
+                  {choose(live, throughput.x * out.weight.x, F(0)), choose(live, throughput.y * out.weight.y, F(0)),
+                   choose(live, throughput.z * out.weight.z, F(0))});
+        store(rays.left + i, vertex.sphere | out.side);
+        if (rays.pdf != nullptr) store(rays.pdf + i, out.pdf);
+        if constexpr (kind == Scattering::dielectric || kind == Scattering::translucent) {
+            if (rays.eta_scale != nullptr) store(rays.eta_scale + i, load<F>(rays.eta_scale + i) * out.eta_scale);
+        }
+        if constexpr (kind == Scattering::glossy || kind == Scattering::translucent) {
+            if (lobes.x != nullptr) store3<V>(lobes.x + i, lobes.y + i, lobes.z + i, out.lobe);
+        }
+    }
+}
+
+}  // namespace orrery::kernels

@@ -1,0 +1,27 @@
+// Stage `shadow`: what the shadow queue carries arrives where nothing blocks it.
+#pragma once
+
+#include "kernels/emission.hpp"
+#include "kernels/intersect.hpp"
+
+namespace orrery::kernels {
+
+/// `skip` is the light's own sphere, which bounds the segments and cannot block them; no_sphere for a point light.
+template <class V>
+void shadow(const SphereTable<typename V::Real>& spheres, const ShadowQueue<typename V::Real>& queue,
+            std::uint32_t count, std::uint32_t skip, const SlotTable<typename V::Real>& slots) {
+    using F = typename V::F;
+    using U = typename V::U;
+    for (std::uint32_t i = 0; i < count; i += V::count) {
+        const auto live = first_lanes<V>(count - i);
+        const auto o = load3<V>(queue.ox + i, queue.oy + i, queue.oz + i);
+        const auto d = load3<V>(queue.dx + i, queue.dy + i, queue.dz + i);
+        const U left = choose(live, load<U>(queue.left + i), U(no_sphere));
+        const auto blocked = any_hit<V>(spheres, o, d, left, FromOrigin{}, load<F>(queue.t_max + i), skip, live);
+        const std::uint32_t lit = bits(live && !blocked);
+        if (lit == 0) continue;
+        add_radiance<V>(slots, load<U>(queue.slot + i), load3<V>(queue.r + i, queue.g + i, queue.b + i), lit);
+    }
+}
+
+}  // namespace orrery::kernels

@@ -1,0 +1,71 @@
+// Stage `shade`, second step: hits into one run per way of scattering, misses and dead rays left behind.
+//
+// A stable counting sort. Records move by compress in register, which costs two operations per field and kind present
+// in a vector; sorting indices and gathering the records later costs a gather per field, five times that.
+#pragma once
+
+#include "kernels/compress.hpp"
+#include "kernels/queues.hpp"
+
+namespace orrery::kernels {
+
+/// Lanes that hit something and carry anything, and the surface word of what they hit (0 elsewhere).
+template <class V>
+struct LiveHits {
+    typename V::M live;
+    typename V::U surface;
+};
+
+template <class V>
+ORRERY_INLINE LiveHits<V> live_hits(const SphereTable<typename V::Real>& spheres,
+                                    const RayQueue<typename V::Real>& rays, const HitQueue<typename V::Real>& hits,
+                                    std::uint32_t i, std::uint32_t count) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const U hit = load<U>(hits.id + i);
+    const F carried = max(load<F>(rays.tr + i), max(load<F>(rays.tg + i), load<F>(rays.tb + i)));
+    const auto live = first_lanes<V>(count - i) && !words_equal(hit, U(no_sphere)) && carried != F(0);
+    return {live, gather<U>(spheres.surface, choose(live, hit & U(no_sphere), U(0u)))};
+}
+
+template <class V>
+ORRERY_INLINE std::uint32_t lanes_of_kind(const LiveHits<V>& hits, std::uint32_t kind) {
+    using U = typename V::U;
+    const U of = (hits.surface >> surface_material_bits) & U(surface_kind_mask);
+    return bits(hits.live && words_equal(of, U(kind)));
+}
+
+/// `kinds` has bit k set where the plan knows kind k; no other is looked for.
+template <class V>
+void sort_by_scattering(const SphereTable<typename V::Real>& spheres, std::uint32_t kinds,
+                        const RayQueue<typename V::Real>& rays, const HitQueue<typename V::Real>& hits,
+                        std::uint32_t count, const RayQueue<typename V::Real>& sorted_rays,
+                        const HitQueue<typename V::Real>& sorted_hits, Runs& runs) {
+    runs = {};
+    for (std::uint32_t i = 0; i < count; i += V::count) {
+        const auto hit = live_hits<V>(spheres, rays, hits, i, count);
+        for (std::uint32_t left = kinds; left != 0; left &= left - 1) {
+            const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
+            runs.run[k].count += static_cast<std::uint32_t>(std::popcount(lanes_of_kind(hit, k)));
+        }
+    }
+    std::uint32_t to[scattering_count];
+    std::uint32_t end = 0;
+    for (std::uint32_t k = 0; k < scattering_count; ++k) {
+        to[k] = runs.run[k].begin = end;
+        end += padded_run(runs.run[k].count);
+    }
+    for (std::uint32_t i = 0; i < count; i += V::count) {
+        const auto hit = live_hits<V>(spheres, rays, hits, i, count);
+        for (std::uint32_t left = kinds; left != 0; left &= left - 1) {
+            const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
+            const std::uint32_t chosen = lanes_of_kind(hit, k);
+            if (chosen == 0) continue;
+            move_record<V>(rays, i, sorted_rays, to[k], chosen);
+            move_record<V>(hits, i, sorted_hits, to[k], chosen);
+            to[k] += static_cast<std::uint32_t>(std::popcount(chosen));
+        }
+    }
+}
+
+}  // namespace orrery::kernels

@@ -1,0 +1,62 @@
+// The stages as a table of function pointers, one table per instruction set, chosen once at start-up.
+//
+// Every pointer does what the template of the same name documents (generate.hpp, intersect.hpp, ...).
+#pragma once
+
+#include "kernels/connect.hpp"
+#include "kernels/isa.hpp"
+#include "kernels/scatter.hpp"
+#include "kernels/segment.hpp"
+
+namespace orrery::kernels {
+
+template <class Real>
+struct Stages {
+    Isa isa = Isa::scalar;
+    std::uint32_t lanes = 1;  ///< numbers per vector
+
+    using Generate = void (*)(const CameraTable<Real>&, const SlotTable<Real>&, std::uint32_t count, std::uint32_t seed,
+                              const RayQueue<Real>&);
+    Generate generate_pinhole, generate_lens;
+
+    void (*intersect)(const SphereTable<Real>&, const RayQueue<Real>&, std::uint32_t count, const HitQueue<Real>&);
+
+    void (*emission)(const SphereTable<Real>&, const EmissionTable<Real>&, LightStrategy, const RayQueue<Real>&,
+                     const HitQueue<Real>&, std::uint32_t count, const SlotTable<Real>&);
+    void (*sort_by_scattering)(const SphereTable<Real>&, std::uint32_t kinds, const RayQueue<Real>&,
+                               const HitQueue<Real>&, std::uint32_t count, const RayQueue<Real>& sorted_rays,
+                               const HitQueue<Real>& sorted_hits, Runs&);
+    using Scatter = void (*)(const ScatterContext<Real>&, Range, const RayQueue<Real>&, const HitQueue<Real>&,
+                             const LobeQueue<Real>&);
+    Scatter scatter[scattering_count];  ///< by Scattering
+
+    using ConnectPoint = std::uint32_t (*)(const ConnectContext<Real>&, const PointLight<Real>&, Range,
+                                           const RayQueue<Real>&, const LobeQueue<Real>&, const ShadowQueue<Real>&);
+    using ConnectArea = std::uint32_t (*)(const ConnectContext<Real>&, const AreaLight<Real>&, Range,
+                                          const RayQueue<Real>&, const LobeQueue<Real>&, const ShadowQueue<Real>&);
+    ConnectPoint connect_point[2];   ///< by Response
+    ConnectArea connect_area[2][2];  ///< by LightStrategy, Response
+
+    void (*shadow)(const SphereTable<Real>&, const ShadowQueue<Real>&, std::uint32_t count, std::uint32_t skip,
+                   const SlotTable<Real>&);
+
+    std::uint32_t (*roulette)(const SlotTable<Real>&, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs&,
+                              const RayQueue<Real>&);
+
+    void (*expire)(const SlotTable<Real>&, std::uint32_t depth, std::uint32_t count, const RayQueue<Real>&);
+    void (*branch)(const ScatterContext<Real>&, Range, const RayQueue<Real>&, const HitQueue<Real>&,
+                   const BranchStack<Real>&);
+    void (*descend)(const SlotTable<Real>&, Range, const RayQueue<Real>&);
+    std::uint32_t (*resume)(const SlotTable<Real>&, const BranchStack<Real>&, std::uint32_t count,
+                            const RayQueue<Real>&, WordOf<Real>* live);
+
+    void (*intersects)(const SphereTable<Real>&, const SegmentColumns<Real>&, std::uint32_t count,
+                       const HitQueue<Real>&);
+    void (*is_occluded)(const SphereTable<Real>&, const SegmentColumns<Real>&, std::uint32_t count,
+                        WordOf<Real>* occluded);
+};
+
+/// The stages compiled for `isa`. Throws nothing; the caller has asked isa_supported first.
+const Stages<float>& stages_for(Isa isa);
+
+}  // namespace orrery::kernels

@@ -1,0 +1,66 @@
+// Three numbers that belong together; x, y, z may be scalars or vectors of lanes.
+#pragma once
+
+#include "kernels/lanes.hpp"
+
+namespace orrery::kernels {
+
+template <class F>
+struct Vec3 {
+    F x, y, z;
+};
+
+template <class F>
+ORRERY_INLINE Vec3<F> operator+(const Vec3<F>& a, const Vec3<F>& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class F>
+ORRERY_INLINE Vec3<F> operator-(const Vec3<F>& a, const Vec3<F>& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class F>
+ORRERY_INLINE Vec3<F> operator*(const Vec3<F>& a, const F& s) {
+    return {a.x * s, a.y * s, a.z * s};
+}
+/// a + s d, one rounding per component.
+template <class F>
+ORRERY_INLINE Vec3<F> along(const Vec3<F>& a, const F& s, const Vec3<F>& d) {
+    return {mul_add(s, d.x, a.x), mul_add(s, d.y, a.y), mul_add(s, d.z, a.z)};
+}
+template <class F>
+ORRERY_INLINE F dot(const Vec3<F>& a, const Vec3<F>& b) {
+    return mul_add(a.x, b.x, mul_add(a.y, b.y, a.z * b.z));
+}
+template <class F>
+ORRERY_INLINE Vec3<F> cross(const Vec3<F>& a, const Vec3<F>& b) {
+    return {neg_mul_add(a.z, b.y, a.y * b.z), neg_mul_add(a.x, b.z, a.z * b.x), neg_mul_add(a.y, b.x, a.x * b.y)};
+}
+template <class F>
+ORRERY_INLINE Vec3<F> unit(const Vec3<F>& a) {
+    return a * (F(1) / root(dot(a, a)));
+}
+template <class M, class F>
+ORRERY_INLINE Vec3<F> choose(const M& m, const Vec3<F>& a, const Vec3<F>& b) {
+    return {choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z)};
+}
+
+template <class V>
+ORRERY_INLINE Vec3<typename V::F> load3(const typename V::Real* x, const typename V::Real* y,
+                                        const typename V::Real* z) {
+    using F = typename V::F;
+    return {load<F>(x), load<F>(y), load<F>(z)};
+}
+template <class V>
+ORRERY_INLINE Vec3<typename V::F> gather3(const typename V::Real* x, const typename V::Real* y,
+                                          const typename V::Real* z, const typename V::U& index) {
+    using F = typename V::F;
+    return {gather<F>(x, index), gather<F>(y, index), gather<F>(z, index)};
+}
+template <class V>
+ORRERY_INLINE void store3(typename V::Real* x, typename V::Real* y, typename V::Real* z, const Vec3<typename V::F>& v) {
+    store(x, v.x);
+    store(y, v.y);
+    store(z, v.z);
+}
+
+}  // namespace orrery::kernels

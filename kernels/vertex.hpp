@@ -1,0 +1,57 @@
+// Where a ray met a surface: position, normal, material, the numbers every way of scattering starts from.
+#pragma once
+
+#include "kernels/queues.hpp"
+#include "kernels/random.hpp"
+#include "kernels/sphere.hpp"
+
+namespace orrery::kernels {
+
+template <class V>
+struct Vertex {
+    Vec3<typename V::F> position;  ///< on the sphere to the last bit the radius allows
+    Vec3<typename V::F> normal;    ///< unit length, on the side the ray arrived at
+    typename V::F cosine;          ///< of the arriving ray with the normal, in [0, 1]
+    typename V::U sphere;          ///< id without side
+    typename V::U side;            ///< inside_bit where the ray arrived from within, else 0
+    typename V::U material;
+};
+
+/// `t` and `hit` as in HitQueue; dead lanes must carry the id of some sphere.
+template <class V>
+ORRERY_INLINE Vertex<V> vertex_at(const SphereTable<typename V::Real>& spheres, const Vec3<typename V::F>& origin,
+                                  const Vec3<typename V::F>& direction, const typename V::F& t,
+                                  const typename V::U& hit) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const U id = hit & U(no_sphere);
+    const auto sphere = gather_sphere<V>(spheres, id);
+    // origin + t d is good to an ulp of t, which may be large against the radius: the normal is normalised for itself
+    // and the position put back onto the sphere.
+    const Vec3<F> outward = unit(along(origin - sphere.centre, t, direction));
+    const auto inside = !words_equal(hit, id);
+    const Vec3<F> position = along(sphere.centre, sphere.radius, outward);
+    const Vec3<F> normal = choose(inside, outward * F(-1), outward);
+    const F cosine = min(max(F(0) - dot(normal, direction), F(0)), F(1));
+    return {
+        position, normal, cosine, id, hit & U(inside_bit), gather<U>(spheres.surface, id) & U(surface_material_mask)};
+}
+
+/// The vertex number randomness is keyed with: the bounce of a path, or the node of the slot's Whitted ray.
+template <class V>
+ORRERY_INLINE typename V::U vertex_number(const SlotTable<typename V::Real>& slots, std::uint32_t bounce,
+                                          const typename V::U& slot) {
+    using U = typename V::U;
+    return slots.node != nullptr ? gather<U>(slots.node, slot) : U(bounce);
+}
+
+/// Four random numbers for each ray of a queue.
+template <class V>
+ORRERY_INLINE RandomNumbers<typename V::F> random_for(const SlotTable<typename V::Real>& slots, const RandomKey& key,
+                                                      std::uint32_t bounce, const typename V::U& slot) {
+    using U = typename V::U;
+    return random_block<V>(key, gather<U>(slots.pixel, slot), gather<U>(slots.sample, slot),
+                           vertex_number<V>(slots, bounce, slot));
+}
+
+}  // namespace orrery::kernels

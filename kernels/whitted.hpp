@@ -1,0 +1,129 @@
+// Whitted ray tracing's own steps: both branches at a dielectric, one live ray per slot, the other branch postponed.
+//
+// Depth-first per slot: a tree of depth D has at most D branches pending, so the storage is bounded whatever the glass,
+// and a slot's contributions are summed in the order of its own tree, whatever shares the wave with it. (Breadth-first
+// would need 2^D rays per sample, or give up the order of summation, and with it the same bytes for every wave size.)
+#pragma once
+
+#include "kernels/scatter.hpp"
+
+namespace orrery::kernels {
+
+/// Below this weight a branch is dropped (spec section 4).
+template <class Real>
+inline constexpr Real branch_cut = Real(1e-5);
+
+/// Kills the rays that have scattered `depth` times. Runs after `emission`.
+template <class V>
+void expire(const SlotTable<typename V::Real>& slots, std::uint32_t depth, std::uint32_t count,
+            const RayQueue<typename V::Real>& rays) {
+    using F = typename V::F;
+    using U = typename V::U;
+    for (std::uint32_t i = 0; i < count; i += V::count) {
+        const U slot = choose(first_lanes<V>(count - i), load<U>(rays.slot + i), U(0u));
+        const auto alive = words_equal(gather<U>(slots.node, slot) >> static_cast<int>(depth), U(0u));
+        const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
+        const Vec3<F> none{F(0), F(0), F(0)};
+        store3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(alive, throughput, none));
+    }
+}
+
+/// Every ray of the run becomes the transmitted one, or the reflected one where reflection is total; what was reflected
+/// elsewhere goes onto the slot's stack.
+template <class V>
+void branch(const ScatterContext<typename V::Real>& context, Range run, const RayQueue<typename V::Real>& rays,
+            const HitQueue<typename V::Real>& hits, const BranchStack<typename V::Real>& stack) {
+    using F = typename V::F;
+    using U = typename V::U;
+    using Real = typename V::Real;
+    using Word = typename V::Word;
+    const U zero(0u);
+    for (std::uint32_t n = 0; n < run.count; n += V::count) {
+        const std::uint32_t i = run.begin + n;
+        const auto in_run = first_lanes<V>(run.count - n);
+        const U met = load<U>(hits.id + i);
+        const auto live = in_run && !words_equal(met, U(no_sphere));
+        const U hit = choose(live, met, zero);
+        const auto d = load3<V>(rays.dx + i, rays.dy + i, rays.dz + i);
+        const auto vertex =
+            vertex_at<V>(context.spheres, load3<V>(rays.ox + i, rays.oy + i, rays.oz + i), d, load<F>(hits.t + i), hit);
+        const auto& materials = context.materials;
+        const F eta = gather<F>(materials.eta, vertex.material);
+        const auto at = interface_at<V>(vertex.cosine, choose(words_equal(vertex.side, zero), eta, F(1) / eta));
+        const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
+        const auto rho = reflectance_of<V>(materials, vertex.material) * at.reflectance;
+        const auto tau = gather3<V>(materials.tau_r, materials.tau_g, materials.tau_b, vertex.material) *
+                         ((F(1) - at.reflectance) * at.inverse_eta * at.inverse_eta);
+        const auto weigh = [&](const Vec3<F>& w) {
+            const Vec3<F> out{throughput.x * w.x, throughput.y * w.y, throughput.z * w.z};
+            const auto keep = live && max(out.x, max(out.y, out.z)) >= F(branch_cut<Real>);
+            return choose(keep, out, Vec3<F>{F(0), F(0), F(0)});
+        };
+        const Vec3<F> transmitted = weigh(tau);
+        const Vec3<F> mirrored = weigh(rho);
+        const auto continues = max(transmitted.x, max(transmitted.y, transmitted.z)) > F(0);
+        const auto postponed = continues && max(mirrored.x, max(mirrored.y, mirrored.z)) > F(0);
+        const Vec3<F> mirror = unit(reflected(d, vertex.normal, vertex.cosine));
+        const Vec3<F> through = refracted<V>(d, vertex.normal, vertex.cosine, at);
+        const U mirror_left = vertex.sphere | vertex.side;
+        const U slot = choose(in_run, load<U>(rays.slot + i), zero);
+        const U node = gather<U>(context.slots.node, slot) << 1;
+
+        store3<V>(rays.ox + i, rays.oy + i, rays.oz + i, vertex.position);
+        store3<V>(rays.dx + i, rays.dy + i, rays.dz + i, choose(continues, through, mirror));
+        store3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(continues, transmitted, mirrored));
+        store(rays.left + i, choose(continues, mirror_left ^ U(inside_bit), mirror_left));
+
+        alignas(64) Word slot_of[V::count], node_of[V::count], left_of[V::count];
+        alignas(64) Real numbers[9][V::count];
+        store(slot_of, slot);
+        store(node_of, node);
+        store(left_of, mirror_left);
+        store3<V>(numbers[0], numbers[1], numbers[2], vertex.position);
+        store3<V>(numbers[3], numbers[4], numbers[5], mirror);
+        store3<V>(numbers[6], numbers[7], numbers[8], mirrored);
+        for (std::uint32_t left = bits(live); left != 0; left &= left - 1) {
+            const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+            context.slots.node[slot_of[lane]] = node_of[lane] + (bits(continues) >> lane & 1u);
+        }
+        for (std::uint32_t left = bits(postponed); left != 0; left &= left - 1) {
+            const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+            const Word s = slot_of[lane];
+            const std::size_t entry = std::size_t{stack.height[s]++} * stack.slots + s;
+            Real* const to[9] = {stack.rays.ox, stack.rays.oy, stack.rays.oz, stack.rays.dx, stack.rays.dy,
+                                 stack.rays.dz, stack.rays.tr, stack.rays.tg, stack.rays.tb};
+            for (int f = 0; f < 9; ++f) to[f][entry] = numbers[f][lane];
+            stack.rays.left[entry] = left_of[lane];
+            stack.rays.slot[entry] = s;
+            stack.node[entry] = node_of[lane];
+        }
+    }
+}
+
+/// The rays of a run step down their trees without branching.
+template <class V>
+void descend(const SlotTable<typename V::Real>& slots, Range run, const RayQueue<typename V::Real>& rays) {
+    for (std::uint32_t i = run.begin; i < run.begin + run.count; ++i) slots.node[rays.slot[i]] <<= 1;
+}
+
+/// Appends to `rays` the topmost postponed branch of every slot without a live ray. `live` has an entry per slot, zero
+/// on entry and on return. Returns the new count.
+template <class V>
+std::uint32_t resume(const SlotTable<typename V::Real>& slots, const BranchStack<typename V::Real>& stack,
+                     std::uint32_t count, const RayQueue<typename V::Real>& rays, typename V::Word* live) {
+    for (std::uint32_t i = 0; i < count; ++i) live[rays.slot[i]] = 1;
+    for (std::uint32_t s = 0; s < stack.slots; ++s) {
+        if (live[s] == 0 && stack.height[s] != 0) {
+            const std::size_t entry = std::size_t{--stack.height[s]} * stack.slots + s;
+            RayQueue<typename V::Real>::each_field([&](const char*, auto field) {
+                if (rays.*field != nullptr) (rays.*field)[count] = (stack.rays.*field)[entry];
+            });
+            slots.node[s] = stack.node[entry];
+            ++count;
+        }
+        live[s] = 0;
+    }
+    return count;
+}
+
+}  // namespace orrery::kernels

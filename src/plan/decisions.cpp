@@ -1,0 +1,68 @@
+// The plan in words: `orrery info` and the `plan` entry of the statistics.
+#include <fmt/format.h>
+
+#include "plan/plan.hpp"
+
+namespace orrery {
+
+using kernels::Scattering;
+
+namespace {
+
+constexpr std::array<const char*, kernels::scattering_count> kind_names = {"diffuse", "specular", "glossy",
+                                                                           "dielectric", "translucent"};
+
+std::string kinds(std::uint32_t mask) {
+    std::string list;
+    for (std::uint32_t k = 0; k < kernels::scattering_count; ++k)
+        if ((mask >> k & 1u) != 0) list += fmt::format("{}{}", list.empty() ? "" : ", ", kind_names[k]);
+    return list;
+}
+
+}  // namespace
+
+std::vector<Decision> Plan::decisions() const {
+    const Needs& n = needs_;
+    const RenderSettings& s = settings();
+    std::vector<Decision> list;
+    const auto decide = [&](const char* part, bool runs, std::string reason) {
+        list.push_back({part, runs, std::move(reason)});
+    };
+    decide("intersect: linear", true, fmt::format("{} spheres", spheres_.count));
+    decide("generate: lens", n.lens,
+           n.lens ? fmt::format("aperture {}", scene_.camera.aperture) : "the camera is a pinhole");
+    if (n.integrator == Integrator::depth) {
+        decide("shade, shadow, roulette", false, "DEPTH stops after intersect");
+        return list;
+    }
+    for (std::uint32_t k = 0; k < kernels::scattering_count; ++k) {
+        const bool runs = n.scatters(static_cast<Scattering>(k));
+        decide(fmt::format("shade: {}", kind_names[k]).c_str(), runs,
+               runs ? "some surface scatters so" : "no surface scatters so");
+    }
+    decide("shade: sort", n.sort, n.sort ? "surfaces scatter in several ways" : "all surfaces scatter alike");
+    decide("shade: emission", n.emitters,
+           n.emitters ? fmt::format("{} emissive spheres", area_lights_.size()) : "no sphere emits");
+    decide("shade: background", n.background, n.background ? "rays that miss carry light" : "the background is black");
+    decide("shadow: point lights", n.connect_point != 0,
+           n.connect_point != 0
+               ? fmt::format("{} of them, from {} surfaces", point_lights_.size(), kinds(n.connect_point))
+           : point_lights_.empty() ? "there is none"
+                                   : "no surface they could light");
+    const bool naive = n.integrator == Integrator::path_tracing && s.transport == Transport::naive;
+    decide("shadow: area lights", n.connect_area != 0,
+           n.connect_area != 0    ? fmt::format("{} of them, from {} surfaces{}", area_lights_.size(),
+                                                kinds(n.connect_area), n.competing ? ", weighed against scattering" : "")
+           : area_lights_.empty() ? "there is none"
+           : naive                ? "naive transport finds them by scattering"
+                                  : "no surface samples them");
+    decide("roulette: play", n.roulette,
+           n.integrator == Integrator::whitted ? "Whitted ray tracing cuts weak branches instead"
+           : n.roulette                        ? "paths of little throughput end early"
+           : s.roulette                        ? "no path scatters"
+                                               : "switched off; dead rays are still compacted away");
+    decide("branches", n.branches, n.branches ? "dielectrics are followed both ways" : "nothing is followed both ways");
+    return list;
+}
+
+}  // namespace orrery

@@ -1,0 +1,191 @@
+#include "plan/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <stdexcept>
+
+namespace orrery {
+
+using kernels::Scattering;
+
+namespace {
+
+Scattering scattering_of(const Material& material, Integrator integrator) {
+    switch (material.kind) {
+        case MaterialKind::diffuse:
+            return Scattering::diffuse;
+        case MaterialKind::specular:
+            return Scattering::specular;
+        case MaterialKind::dielectric:
+            return Scattering::dielectric;
+        // Whitted follows the unperturbed direction (spec section 4).
+        case MaterialKind::glossy:
+            return integrator == Integrator::whitted ? Scattering::specular : Scattering::glossy;
+        case MaterialKind::translucent:
+            return integrator == Integrator::whitted ? Scattering::dielectric : Scattering::translucent;
+    }
+    throw std::invalid_argument("unknown material kind");
+}
+
+bool is_black(const glm::dvec3& light) { return light.r == 0 && light.g == 0 && light.b == 0; }
+
+constexpr std::uint32_t bit(Scattering kind) { return 1u << static_cast<unsigned>(kind); }
+
+}  // namespace
+
+Plan::Plan(Scene scene) : scene_(std::move(scene)) {
+    const RenderSettings& s = scene_.settings;
+    if (s.width == 0 || s.height == 0 || s.samples == 0)
+        throw std::invalid_argument("an image needs pixels and samples");
+    if (s.integrator == Integrator::whitted && s.depth > 20)
+        throw std::invalid_argument("Whitted ray tracing goes to depth 20");
+    if (scene_.materials.size() > kernels::surface_material_mask)
+        throw std::invalid_argument("more than 2^24 materials");
+    if (s.estimator == Estimator::stratified) {
+        strata_ = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(s.samples)));
+    }
+    plan_camera();
+    plan_surfaces();
+    plan_lights();
+    plan_needs();
+}
+
+std::uint32_t Plan::samples() const {
+    return settings().estimator == Estimator::stratified ? strata_ * strata_ : settings().samples;
+}
+
+void Plan::plan_camera() {
+    const Camera& from = scene_.camera;
+    // Left-handed: X = up x Z points right, Y = Z x X up (spec section 2).
+    const glm::dvec3 z = glm::normalize(from.target - from.position);
+    const bool along_up = z.x == 0 && z.z == 0;
+    const glm::dvec3 x = glm::normalize(glm::cross(along_up ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0), z));
+    const glm::dvec3 y = glm::cross(z, x);
+    half_height_ = std::tan(from.fov * std::numbers::pi / 360);
+    half_width_ = half_height_ * from.aspect;
+    const auto f = [](double v) { return static_cast<float>(v); };
+    camera_ = {f(from.position.x),
+               f(from.position.y),
+               f(from.position.z),
+               f(x.x),
+               f(x.y),
+               f(x.z),
+               f(y.x),
+               f(y.y),
+               f(y.z),
+               f(z.x),
+               f(z.y),
+               f(z.z),
+               f(2 * half_width_ / settings().width / strata_),
+               f(-2 * half_height_ / settings().height / strata_),
+               f(from.aperture / 2),
+               f(from.focal_distance)};
+
+    double reach = 0;
+    for (const Primitive& p : scene_.primitives)
+        reach = std::max(reach, glm::length(p.centre - from.position) + p.radius + from.aperture / 2);
+    enclosing_distance_ = reach > 0 ? f(2 * reach) : 1.0f;
+}
+
+void Plan::plan_surfaces() {
+    const auto push3 = [](auto& columns, std::size_t first, const glm::dvec3& v) {
+        for (int c = 0; c < 3; ++c) columns[first + static_cast<std::size_t>(c)].push_back(static_cast<float>(v[c]));
+    };
+    for (const Material& m : scene_.materials) {
+        push3(material_columns_, 0, m.rho);
+        push3(material_columns_, 3, m.rho_t);
+        material_columns_[6].push_back(static_cast<float>(m.eta));
+        material_columns_[7].push_back(static_cast<float>(m.roughness));
+    }
+    std::uint32_t index = 0;
+    for (const Primitive& p : scene_.primitives) {
+        if (p.material >= scene_.materials.size()) throw std::invalid_argument("a primitive names no material");
+        push3(sphere_columns_, 0, p.centre);
+        sphere_columns_[3].push_back(static_cast<float>(p.radius));
+        const Scattering kind = scattering_of(scene_.materials[p.material], settings().integrator);
+        needs_.scattering |= bit(kind);
+        std::uint32_t surface = p.material | static_cast<std::uint32_t>(kind) << kernels::surface_material_bits;
+        std::uint32_t light = 0;
+        if (p.emission && !is_black(*p.emission)) {  // a light that is switched off is none
+            surface |= kernels::surface_emits;
+            light = static_cast<std::uint32_t>(area_lights_.size());
+            push3(emission_columns_, 0, *p.emission);
+            const auto f = [](double v) { return static_cast<float>(v); };
+            area_lights_.push_back({index, f(p.centre.x), f(p.centre.y), f(p.centre.z), f(p.radius), f(p.emission->r),
+                                    f(p.emission->g), f(p.emission->b)});
+        }
+        sphere_words_[0].push_back(surface);
+        sphere_words_[1].push_back(light);
+        ++index;
+    }
+    if (index == 0) {  // kernels may look up sphere 0 for dead lanes
+        for (auto& column : sphere_columns_) column.push_back(1);
+        for (auto& column : sphere_words_) column.push_back(0);
+    }
+    spheres_ = {index,
+                sphere_columns_[0].data(),
+                sphere_columns_[1].data(),
+                sphere_columns_[2].data(),
+                sphere_columns_[3].data(),
+                sphere_words_[0].data(),
+                sphere_words_[1].data()};
+    materials_ = {material_columns_[0].data(), material_columns_[1].data(), material_columns_[2].data(),
+                  material_columns_[3].data(), material_columns_[4].data(), material_columns_[5].data(),
+                  material_columns_[6].data(), material_columns_[7].data()};
+}
+
+void Plan::plan_lights() {
+    const auto f = [](double v) { return static_cast<float>(v); };
+    for (const PointLight& light : scene_.point_lights) {
+        if (is_black(light.intensity)) continue;
+        point_lights_.push_back({f(light.position.x), f(light.position.y), f(light.position.z), f(light.intensity.r),
+                                 f(light.intensity.g), f(light.intensity.b)});
+    }
+    const glm::dvec3& b = scene_.background;
+    for (auto& column : emission_columns_)
+        if (column.empty()) column.push_back(0);  // looked up for dead lanes
+    emission_ = {emission_columns_[0].data(),
+                 emission_columns_[1].data(),
+                 emission_columns_[2].data(),
+                 f(b.r),
+                 f(b.g),
+                 f(b.b),
+                 !is_black(b),
+                 !area_lights_.empty()};
+}
+
+void Plan::plan_needs() {
+    const RenderSettings& s = settings();
+    const std::uint32_t rough =
+        needs_.scattering & (bit(Scattering::diffuse) | bit(Scattering::glossy) | bit(Scattering::translucent));
+    const std::uint32_t diffuse = needs_.scattering & bit(Scattering::diffuse);
+    const std::uint32_t dielectric = needs_.scattering & (bit(Scattering::dielectric) | bit(Scattering::translucent));
+    needs_.integrator = s.integrator;
+    needs_.lens = scene_.camera.aperture > 0;
+    if (s.integrator == Integrator::depth) {
+        needs_.scattering = 0;
+        return;
+    }
+    needs_.emitters = emission_.has_emitters;
+    needs_.background = emission_.has_background;
+    needs_.sort = std::has_single_bit(needs_.scattering) == false && needs_.scattering != 0;
+    if (s.integrator == Integrator::whitted) {
+        if (!point_lights_.empty()) needs_.connect_point = diffuse;
+        if (!area_lights_.empty()) needs_.connect_area = diffuse;
+        needs_.branches = dielectric != 0;
+        return;
+    }
+    if (!point_lights_.empty()) needs_.connect_point = rough;
+    if (!area_lights_.empty() && s.transport != Transport::naive) {
+        needs_.competing = s.transport == Transport::mis;
+        needs_.connect_area = needs_.competing ? rough : diffuse;
+        needs_.scattering_pdf = needs_.connect_area != 0;
+    }
+    needs_.roulette = s.roulette && s.depth > 0;
+    needs_.eta_scale = needs_.roulette && dielectric != 0;
+    needs_.lobes = ((needs_.connect_point | needs_.connect_area) & ~diffuse) != 0;
+}
+
+}  // namespace orrery

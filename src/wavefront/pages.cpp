@@ -1,0 +1,202 @@
+// The pages: each integrator as a page of stage calls. Start reading here.
+#include <utility>
+
+#include "kernels/queues.hpp"
+#include "wavefront/wave.hpp"
+
+namespace orrery {
+
+namespace {
+
+using kernels::LightStrategy;
+using kernels::Response;
+using kernels::Runs;
+using kernels::Scattering;
+
+// ---- the five stages, as the pages call them ----------------------------------------------------------------------
+
+/// Camera -> ray queue. Returns the number of rays, one per slot.
+std::uint32_t generate(Wave& w) {
+    const StageTimer timer(w, Stage::generate);
+    const auto stage = w.plan.needs().lens ? w.stages.generate_lens : w.stages.generate_pinhole;
+    stage(w.plan.camera(), w.storage.slots, w.count, w.plan.settings().seed, w.storage.rays);
+    return w.count;
+}
+
+/// Rays -> hits.
+void intersect(Wave& w, std::uint32_t rays) {
+    const StageTimer timer(w, Stage::intersect);
+    w.stages.intersect(w.plan.spheres(), w.storage.rays, rays, w.storage.hits);
+    w.counters.closest_rays += rays;
+}
+
+LightStrategy light_strategy(const Wave& w) {
+    return w.plan.settings().light_sampling == LightSampling::cone ? LightStrategy::cone : LightStrategy::area;
+}
+
+/// Hits -> the radiance rays run into.
+void gather_emission(Wave& w, std::uint32_t rays) {
+    const Needs& needs = w.plan.needs();
+    if (!needs.emitters && !needs.background) return;
+    const StageTimer timer(w, Stage::shade);
+    w.stages.emission(w.plan.spheres(), w.plan.emission(), light_strategy(w), w.storage.rays, w.storage.hits, rays,
+                      w.storage.slots);
+}
+
+/// Hits -> one run per way of scattering. Where the scene has one way, the queue is the run, misses included.
+Runs sort_hits(Wave& w, std::uint32_t rays) {
+    const Needs& needs = w.plan.needs();
+    Runs runs;
+    if (!needs.sort) {
+        for (std::uint32_t k = 0; k < kernels::scattering_count; ++k)
+            if (needs.scatters(static_cast<Scattering>(k))) runs.run[k] = {0, rays};
+        return runs;
+    }
+    const StageTimer timer(w, Stage::shade);
+    WaveStorage& s = w.storage;
+    w.stages.sort_by_scattering(w.plan.spheres(), needs.scattering, s.rays, s.hits, rays, s.sorted_rays, s.sorted_hits,
+                                runs);
+    std::swap(s.rays, s.sorted_rays);
+    std::swap(s.hits, s.sorted_hits);
+    return runs;
+}
+
+kernels::ScatterContext<float> scatter_context(const Wave& w, std::uint32_t bounce) {
+    return {w.plan.spheres(), w.plan.materials(),      w.storage.slots, w.plan.settings().seed,
+            bounce,           w.plan.needs().competing};
+}
+
+/// A run's hits -> the rays that leave them.
+void scatter(Wave& w, Scattering kind, const Runs& runs, std::uint32_t bounce) {
+    const auto k = static_cast<std::size_t>(kind);
+    if (runs.run[k].count == 0) return;
+    const StageTimer timer(w, Stage::shade);
+    w.stages.scatter[k](scatter_context(w, bounce), runs.run[k], w.storage.rays, w.storage.hits, w.storage.lobes);
+}
+
+/// Shadow queue -> radiance.
+void shadow(Wave& w, std::uint32_t rays, std::uint32_t light_sphere) {
+    if (rays == 0) return;
+    const StageTimer timer(w, Stage::shadow);
+    w.stages.shadow(w.plan.spheres(), w.storage.shadows, rays, light_sphere, w.storage.slots);
+    w.counters.shadow_rays += rays;
+}
+
+/// Vertices -> shadow queue -> radiance, for every light and every run that samples it.
+void connect(Wave& w, const Runs& runs, std::uint32_t bounce) {
+    const Plan& plan = w.plan;
+    const WaveStorage& s = w.storage;
+    kernels::ConnectContext<float> context{
+        plan.spheres(), plan.materials(), s.slots, plan.settings().seed, bounce, 0, plan.needs().competing};
+    for (std::uint32_t k = 0; k < kernels::scattering_count; ++k) {
+        const auto run = runs.run[k];
+        if (run.count == 0) continue;
+        const auto response = static_cast<Scattering>(k) == Scattering::diffuse ? Response::diffuse : Response::glossy;
+        const auto r = static_cast<std::size_t>(response);
+        if ((plan.needs().connect_point >> k & 1u) != 0) {
+            for (const auto& light : plan.point_lights()) {
+                std::uint32_t rays = 0;
+                {
+                    const StageTimer timer(w, Stage::shade);
+                    rays = w.stages.connect_point[r](context, light, run, s.rays, s.lobes, s.shadows);
+                }
+                shadow(w, rays, kernels::no_sphere);
+            }
+        }
+        if ((plan.needs().connect_area >> k & 1u) != 0) {
+            const auto sample = w.stages.connect_area[static_cast<std::size_t>(light_strategy(w))][r];
+            context.light = 0;
+            for (const auto& light : plan.area_lights()) {
+                std::uint32_t rays = 0;
+                {
+                    const StageTimer timer(w, Stage::shade);
+                    rays = sample(context, light, run, s.rays, s.lobes, s.shadows);
+                }
+                shadow(w, rays, light.sphere);
+                ++context.light;
+            }
+        }
+    }
+}
+
+/// Kill, weigh, compact. Returns the number of survivors.
+std::uint32_t roulette(Wave& w, const Runs& runs, std::uint32_t bounce) {
+    const StageTimer timer(w, Stage::roulette);
+    return w.stages.roulette(w.storage.slots, w.plan.settings().seed, bounce, w.plan.needs().roulette, runs,
+                             w.storage.rays);
+}
+
+/// Rays that leave a diffuse surface end here: nothing they could run into counts.
+void end_diffuse(Runs& runs) { runs.run[static_cast<std::size_t>(Scattering::diffuse)].count = 0; }
+
+}  // namespace
+
+// ---- the pages ----------------------------------------------------------------------------------------------------
+
+/// Path tracing. After the k-th pass of the loop a path has scattered k times; the last pass only looks at what its
+/// rays run into, and is left out where nothing there could count.
+void trace_paths(Wave& w) {
+    const Needs& needs = w.plan.needs();
+    const std::uint32_t depth = w.plan.settings().depth;
+    const bool anything_shines = needs.emitters || needs.background;
+    const bool only_lights_sampled = needs.scattering_pdf && !needs.competing && !needs.background;
+
+    std::uint32_t rays = generate(w);
+    for (std::uint32_t bounce = 0; rays > 0; ++bounce) {
+        intersect(w, rays);
+        gather_emission(w, rays);
+        if (bounce == depth) break;
+        Runs runs = sort_hits(w, rays);
+        for (std::uint32_t k = 0; k < kernels::scattering_count; ++k)
+            scatter(w, static_cast<Scattering>(k), runs, bounce);
+        connect(w, runs, bounce);
+        if (bounce + 1 == depth) {
+            if (!anything_shines) break;
+            if (only_lights_sampled) end_diffuse(runs);
+        }
+        rays = roulette(w, runs, bounce);
+    }
+}
+
+/// Whitted ray tracing, L D S* E: diffuse surfaces end a ray, mirrors turn it, dielectrics branch it.
+void trace_whitted(Wave& w) {
+    WaveStorage& s = w.storage;
+    const auto k = [](Scattering kind) { return static_cast<std::size_t>(kind); };
+
+    std::uint32_t rays = generate(w);
+    for (std::uint32_t slot = 0; slot < w.count; ++slot) s.slots.node[slot] = 1;
+    while (rays > 0) {
+        intersect(w, rays);
+        gather_emission(w, rays);
+        w.stages.expire(s.slots, w.plan.settings().depth, rays, s.rays);
+        Runs runs = sort_hits(w, rays);
+        scatter(w, Scattering::diffuse, runs, 0);
+        connect(w, runs, 0);
+        end_diffuse(runs);
+        scatter(w, Scattering::specular, runs, 0);
+        w.stages.descend(s.slots, runs.run[k(Scattering::specular)], s.rays);
+        const auto dielectric = runs.run[k(Scattering::dielectric)];
+        if (dielectric.count > 0) {
+            const StageTimer timer(w, Stage::shade);
+            w.stages.branch(scatter_context(w, 0), dielectric, s.rays, s.hits, s.branches);
+        }
+        rays = roulette(w, runs, 0);
+        if (w.plan.needs().branches) {
+            const StageTimer timer(w, Stage::roulette);
+            rays = w.stages.resume(s.slots, s.branches, rays, s.rays, s.live);
+        }
+    }
+}
+
+/// Distance along the ray, the enclosing volume's where nothing is hit.
+void trace_distances(Wave& w) {
+    WaveStorage& s = w.storage;
+    intersect(w, generate(w));
+    for (std::uint32_t slot = 0; slot < w.count; ++slot) {
+        const bool missed = s.hits.id[slot] == kernels::no_sphere;
+        const float distance = missed ? w.plan.enclosing_distance() : s.hits.t[slot];
+        s.slots.r[slot] = s.slots.g[slot] = s.slots.b[slot] = distance;
+    }
+}
+
+}  // namespace orrery

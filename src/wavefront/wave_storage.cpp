@@ -1,0 +1,90 @@
+#include "wavefront/wave_storage.hpp"
+
+#include <cstring>
+#include <new>
+
+namespace orrery {
+
+namespace {
+
+constexpr std::size_t cache_line = 64;
+
+/// Hands out one field after another. Fields of equal power-of-two length would all start in the same cache set and
+/// evict each other, a stage walking a dozen of them at once; the stagger keeps them apart.
+struct Carver {
+    std::byte* base;
+    std::size_t used = 0;
+
+    template <class T>
+    void field(T*& to, std::size_t count) {
+        to = base != nullptr ? reinterpret_cast<T*>(base + used) : nullptr;
+        used += (count * sizeof(T) + cache_line - 1) / cache_line * cache_line + 3 * cache_line;
+    }
+    template <class Queue>
+    void queue(Queue& to, std::size_t count) {
+        Queue::each_field([&](const char*, auto member) { field(to.*member, count); });
+    }
+};
+
+}  // namespace
+
+void WaveStorage::Free::operator()(std::byte* block) const { ::operator delete (block, std::align_val_t{cache_line}); }
+
+std::size_t WaveStorage::carve(std::byte* base, const Needs& needs, std::uint32_t depth) {
+    Carver carver{base};
+    const std::uint32_t padded = kernels::round_up(slot_count);
+    const std::uint32_t capacity = kernels::ray_capacity(slot_count);
+    const bool shades = needs.integrator != Integrator::depth;
+
+    const auto ray_fields = [&](kernels::RayQueue<float>& queue, std::size_t count) {
+        kernels::RayQueue<float>::each_field([&](const char*, auto member) {
+            using Queue = kernels::RayQueue<float>;
+            if constexpr (std::is_same_v<decltype(member), float * Queue::*>) {
+                if (member == &Queue::pdf && !needs.scattering_pdf) return;
+                if (member == &Queue::eta_scale && !needs.eta_scale) return;
+            }
+            carver.field(queue.*member, count);
+        });
+    };
+
+    carver.field(slots.pixel, padded);
+    carver.field(slots.sample, padded);
+    if (needs.integrator == Integrator::whitted) carver.field(slots.node, padded);
+    carver.field(slots.plane_x, padded);
+    carver.field(slots.plane_y, padded);
+    carver.field(slots.r, padded);
+    carver.field(slots.g, padded);
+    carver.field(slots.b, padded);
+    ray_fields(rays, capacity);
+    carver.queue(hits, capacity);
+    if (needs.sort) {
+        ray_fields(sorted_rays, capacity);
+        carver.queue(sorted_hits, capacity);
+    }
+    if (needs.lobes) carver.queue(lobes, capacity);
+    if (shades && (needs.connect_point | needs.connect_area) != 0) carver.queue(shadows, capacity);
+    if (needs.branches) {
+        branches.slots = slot_count;
+        branches.levels = depth;
+        carver.field(branches.height, padded);
+        ray_fields(branches.rays, std::size_t{slot_count} * depth);
+        carver.field(branches.node, std::size_t{slot_count} * depth);
+        carver.field(live, padded);
+    }
+    return carver.used;
+}
+
+std::size_t WaveStorage::bytes(const Needs& needs, std::uint32_t depth, std::uint32_t count) {
+    WaveStorage counted(count);
+    return counted.carve(nullptr, needs, depth);
+}
+
+WaveStorage::WaveStorage(const Needs& needs, std::uint32_t depth, std::uint32_t count) : WaveStorage(count) {
+    const std::size_t size = bytes(needs, depth, count);
+    block_.reset(static_cast<std::byte*>(::operator new (size, std::align_val_t{cache_line})));
+    // Zero, so that lanes nobody wrote hold valid ids and slots; first touch is by the thread that owns the wave.
+    std::memset(block_.get(), 0, size);
+    carve(block_.get(), needs, depth);
+}
+
+}  // namespace orrery
