@@ -77,21 +77,4 @@ ORRERY_INLINE void move_record(const Queue& from, std::uint32_t i, const Queue& 
     });
 }
 
-/// Adds each chosen lane to sums[index]. Lane by lane, in lane order: two lanes may name one sum.
-template <class V, class F, class U>
-ORRERY_INLINE void scatter_add(float* sums, const U& index, const F& value, std::uint32_t chosen) {
-    if constexpr (V::count == 1) {
-        if (chosen != 0) sums[index] += value;
-    } else {
-        alignas(64) typename V::Real lane[V::count];
-        alignas(64) typename V::Word at[V::count];
-        store(lane, value);
-        store(at, index);
-        for (; chosen != 0; chosen &= chosen - 1) {
-            const int i = std::countr_zero(chosen);
-            sums[at[i]] += lane[i];
-        }
-    }
-}
-
 }  // namespace orrery::kernels

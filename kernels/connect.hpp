@@ -38,8 +38,8 @@ ORRERY_INLINE typename V::F response_pdf(const ConnectContext<typename V::Real>&
     if constexpr (response == Response::diffuse) {
         return max(cosine, F(0)) * F(static_cast<typename V::Real>(std::numbers::inv_pi));
     } else {
-        const U material = gather<U>(context.spheres.surface, sphere) & U(surface_material_mask);
-        const F beta = gather<F>(context.materials.roughness, material);
+        const U material = lookup<U>(context.spheres.surface, sphere, context.spheres.count) & U(surface_material_mask);
+        const F beta = lookup<F>(context.materials.roughness, material, context.materials.count);
         const auto lobe = load3<V>(lobes.x + i, lobes.y + i, lobes.z + i);
         return glossy_pdf<V>(lobe, max(dot(lobe, normal), F(0)), beta, direction, cosine);
     }
@@ -49,7 +49,7 @@ ORRERY_INLINE typename V::F response_pdf(const ConnectContext<typename V::Real>&
 template <class V>
 ORRERY_INLINE std::uint32_t append_shadow(const ShadowQueue<typename V::Real>& queue, std::uint32_t size,
                                           const Vec3<typename V::F>& origin, const Vec3<typename V::F>& direction,
-                                          const typename V::F& t_max, const Vec3<typename V::F>& radiance,
+                                          const typename V::F& inverse_t_max, const Vec3<typename V::F>& radiance,
                                           const typename V::U& left, const typename V::U& slot, std::uint32_t chosen) {
     compress_store<V>(queue.ox + size, origin.x, chosen);
     compress_store<V>(queue.oy + size, origin.y, chosen);
@@ -57,7 +57,7 @@ ORRERY_INLINE std::uint32_t append_shadow(const ShadowQueue<typename V::Real>& q
     compress_store<V>(queue.dx + size, direction.x, chosen);
     compress_store<V>(queue.dy + size, direction.y, chosen);
     compress_store<V>(queue.dz + size, direction.z, chosen);
-    compress_store<V>(queue.t_max + size, t_max, chosen);
+    compress_store<V>(queue.inverse_t_max + size, inverse_t_max, chosen);
     compress_store<V>(queue.r + size, radiance.x, chosen);
     compress_store<V>(queue.g + size, radiance.y, chosen);
     compress_store<V>(queue.b + size, radiance.z, chosen);
@@ -83,15 +83,15 @@ ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<typename V::Real>& 
         const U id = left & U(no_sphere);
         const auto inward = !words_equal(left, id);
         const auto p = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
-        const auto centre = gather3<V>(context.spheres.cx, context.spheres.cy, context.spheres.cz, id);
-        const Vec3<F> outward = (p - centre) * (F(1) / gather<F>(context.spheres.radius, id));
+        const auto sphere = gather_sphere<V>(context.spheres, id);
+        const Vec3<F> outward = (p - sphere.centre) * (F(1) / sphere.radius);
         const Vec3<F> normal = choose(inward, outward * F(-1), outward);
         Vec3<F> direction, radiance;
-        F distance(0);
-        const auto lit = sample(i, p, normal, id, inward, slot, direction, distance, radiance) && live;
+        F inverse_distance(0);
+        const auto lit = sample(i, p, normal, id, inward, slot, direction, inverse_distance, radiance) && live;
         const std::uint32_t chosen = bits(lit);
         if (chosen == 0) continue;
-        size = append_shadow<V>(queue, size, p, direction, distance,
+        size = append_shadow<V>(queue, size, p, direction, inverse_distance,
                                 {throughput.x * radiance.x, throughput.y * radiance.y, throughput.z * radiance.z}, left,
                                 slot, chosen);
     }
@@ -106,17 +106,18 @@ std::uint32_t connect_point(const ConnectContext<typename V::Real>& context, con
     using U = typename V::U;
     using M = typename V::M;
     const Vec3<F> at{F(light.px), F(light.py), F(light.pz)};
-    return connect_run<V>(context, run, rays, queue,
-                          [&](std::uint32_t i, const Vec3<F>& p, const Vec3<F>& normal, const U& id, const M&, const U&,
-                              Vec3<F>& direction, F& distance, Vec3<F>& radiance) -> M {
-                              const Vec3<F> to = at - p;
-                              const F distance2 = dot(to, to);
-                              distance = root(distance2);
-                              direction = to * (F(1) / distance);
-                              const F pdf = response_pdf<V, response>(context, lobes, i, id, normal, direction);
-                              radiance = Vec3<F>{F(light.r), F(light.g), F(light.b)} * (pdf / distance2);
-                              return pdf > F(0) && distance2 > F(0);
-                          });
+    return connect_run<V>(
+        context, run, rays, queue,
+        [&](std::uint32_t i, const Vec3<F>& p, const Vec3<F>& normal, const U& id, const M&, const U&,
+            Vec3<F>& direction, F& inverse_distance, Vec3<F>& radiance) -> M {
+            const Vec3<F> to = at - p;
+            const F distance2 = dot(to, to);
+            inverse_distance = F(1) / root(distance2);
+            direction = to * inverse_distance;
+            const F pdf = response_pdf<V, response>(context, lobes, i, id, normal, direction);
+            radiance = Vec3<F>{F(light.r), F(light.g), F(light.b)} * (pdf * inverse_distance * inverse_distance);
+            return pdf > F(0) && distance2 > F(0);
+        });
 }
 
 template <class V, Response response, LightStrategy strategy>
@@ -130,8 +131,8 @@ std::uint32_t connect_area(const ConnectContext<typename V::Real>& context, cons
     const RandomKey key{context.seed, Dimension::light, context.light};
     return connect_run<V>(context, run, rays, queue,
                           [&](std::uint32_t i, const Vec3<F>& p, const Vec3<F>& normal, const U& id, const M& inward,
-                              const U& slot, Vec3<F>& direction, F& distance, Vec3<F>& radiance) -> M {
-                              const auto random = random_for<V>(context.slots, key, context.bounce, slot);
+                              const U& slot, Vec3<F>& direction, F& inverse_distance, Vec3<F>& radiance) -> M {
+                              const auto random = random_for<V>(context.slots, rays, i, key, context.bounce, slot);
                               // On the light itself its side is known; elsewhere the power of the point tells, as in
                               // `chord`.
                               const auto own = words_equal(id, U(light.sphere));
@@ -143,7 +144,8 @@ std::uint32_t connect_area(const ConnectContext<typename V::Real>& context, cons
                                   if (any(inside)) {
                                       const auto by_area = sample_light_area<V>(p, sphere, inside, random.x, random.y);
                                       sample.direction = choose(inside, by_area.direction, sample.direction);
-                                      sample.distance = choose(inside, by_area.distance, sample.distance);
+                                      sample.inverse_distance =
+                                          choose(inside, by_area.inverse_distance, sample.inverse_distance);
                                       sample.inverse_pdf = choose(inside, by_area.inverse_pdf, sample.inverse_pdf);
                                       sample.valid = (inside && by_area.valid) || (!inside && sample.valid);
                                   }
@@ -151,7 +153,7 @@ std::uint32_t connect_area(const ConnectContext<typename V::Real>& context, cons
                                   sample = sample_light_area<V>(p, sphere, inside, random.x, random.y);
                               }
                               direction = sample.direction;
-                              distance = sample.distance;
+                              inverse_distance = sample.inverse_distance;
                               const F pdf = response_pdf<V, response>(context, lobes, i, id, normal, direction);
                               F ratio = pdf * sample.inverse_pdf;
                               // The balance heuristic's weight 1 / (1 + ratio); a ratio beyond 2^100 would be inf /

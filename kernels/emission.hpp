@@ -16,12 +16,21 @@ ORRERY_INLINE typename V::F scattering_weight(const typename V::F& pdf, const ty
     return choose(whole, F(1), F(1) / (F(1) + light_pdf / pdf));
 }
 
+/// Adds each chosen lane to its slot. Lane by lane, in lane order.
 template <class V>
 ORRERY_INLINE void add_radiance(const SlotTable<typename V::Real>& slots, const typename V::U& slot,
                                 const Vec3<typename V::F>& radiance, std::uint32_t chosen) {
-    scatter_add<V>(slots.r, slot, radiance.x, chosen);
-    scatter_add<V>(slots.g, slot, radiance.y, chosen);
-    scatter_add<V>(slots.b, slot, radiance.z, chosen);
+    alignas(64) typename V::Word at[V::count];
+    alignas(64) typename V::Real r[V::count], g[V::count], b[V::count];
+    store(at, slot);
+    store3<V>(r, g, b, radiance);
+    for (; chosen != 0; chosen &= chosen - 1) {
+        const int lane = std::countr_zero(chosen);
+        typename V::Real* const sum = slots.radiance + std::size_t{4} * at[lane];
+        sum[0] += r[lane];
+        sum[1] += g[lane];
+        sum[2] += b[lane];
+    }
 }
 
 template <class V>
@@ -43,7 +52,7 @@ void emission(const SphereTable<typename V::Real>& spheres, const EmissionTable<
                             bits(missed));
         }
         if (!lights.has_emitters) continue;
-        const U surface = gather<U>(spheres.surface, id);
+        const U surface = lookup<U>(spheres.surface, id, spheres.count);
         const auto emits = live && !missed && words_equal(surface & U(surface_emits), U(surface_emits));
         if (!any(emits)) continue;
         F weight(1);
@@ -55,8 +64,8 @@ void emission(const SphereTable<typename V::Real>& spheres, const EmissionTable<
                              gather_sphere<V>(spheres, id), inside);
             weight = scattering_weight<V>(load<F>(rays.pdf + i), density);
         }
-        const U light = gather<U>(spheres.light, id);
-        const auto radiance = gather3<V>(lights.r, lights.g, lights.b, light);
+        const U light = lookup<U>(spheres.light, id, spheres.count);
+        const auto radiance = lookup3<V>(lights.r, lights.g, lights.b, light, lights.count);
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i) * weight;
         add_radiance<V>(slots, load<U>(rays.slot + i),
                         {throughput.x * radiance.x, throughput.y * radiance.y, throughput.z * radiance.z}, bits(emits));

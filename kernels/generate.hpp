@@ -40,7 +40,9 @@ void generate(const CameraTable<typename V::Real>& camera, const SlotTable<typen
     const U lane = truncate_to_word(load<F>(detail::iota_table<typename V::Real>));
     const F zero(0), one(1);
     for (std::uint32_t i = 0; i < count; i += V::count) {
-        const auto random = random_block<V>(key, load<U>(slots.pixel + i), load<U>(slots.sample + i), U(Word{0}));
+        const U pixel = load<U>(slots.pixel + i);
+        const U sample = load<U>(slots.sample + i);
+        const auto random = random_block<V>(key, pixel, sample, U(Word{0}));
         const F x = mul_add(random.x, F(camera.cell_width), load<F>(slots.plane_x + i));
         const F y = mul_add(random.y, F(camera.cell_height), load<F>(slots.plane_y + i));
         Vec3<F> o, d;
@@ -53,7 +55,9 @@ void generate(const CameraTable<typename V::Real>& camera, const SlotTable<typen
         if (rays.eta_scale != nullptr) store(rays.eta_scale + i, one);
         store(rays.left + i, U(Word{no_sphere}));
         store(rays.slot + i, lane + U(Word{i}));
-        store3<V>(slots.r + i, slots.g + i, slots.b + i, {zero, zero, zero});
+        store(rays.pixel + i, pixel);
+        store(rays.sample + i, sample);
+        for (std::uint32_t c = 0; c < 4; ++c) store(slots.radiance + 4 * i + c * V::count, zero);
     }
 }
 

@@ -53,28 +53,39 @@ ORRERY_INLINE Closest<V> closest_hit(const SphereTable<typename V::Real>& sphere
     return best;
 }
 
-/// Whether any sphere but `skip` (no_sphere: none) is met with t_min < t < t_max.
+/// Whether any sphere but `skip` (no_sphere: none) is met with t_min < t < t_max, given 1 / t_max (0 for no end).
+///
+/// From the origin the near root c / (b + s) lies before t_max exactly when g = c / t_max - b is negative or g^2 <
+/// disc: no square root and no division per sphere. The far root counts from within a sphere only, which is rare.
 template <class V, class Start>
 ORRERY_INLINE typename V::M any_hit(const SphereTable<typename V::Real>& spheres, const Vec3<typename V::F>& o,
                                     const Vec3<typename V::F>& d, const typename V::U& left, const Start& t_min,
-                                    const typename V::F& t_max, std::uint32_t skip, const typename V::M& live) {
+                                    const typename V::F& inverse_t_max, std::uint32_t skip, const typename V::M& live) {
     using F = typename V::F;
     using U = typename V::U;
+    constexpr bool from_origin = std::is_same_v<Start, FromOrigin>;
     const F zero(0);
     const U left_id = left & U(no_sphere);
-    const auto inward = live && !words_equal(left, left_id) && !words_equal(left_id, U(skip));
     auto blocked = !live;
+    const auto inward = live && !words_equal(left, left_id) && !words_equal(left_id, U(skip));
     if (any(inward)) {
         const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
-        blocked = blocked || (inward && t < t_max);
+        blocked = blocked || (inward && t * inverse_t_max < F(1));
     }
     for (std::uint32_t k = 0; k < spheres.count; ++k) {
         if (k == skip) continue;
         const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
-        const auto candidate = line.disc > zero && (line.b > zero || line.c < zero) && !words_equal(left_id, U(k));
-        if (!any(candidate)) continue;
-        const auto first = first_root<V>(line, root(line.disc), t_min, candidate);
-        blocked = blocked || (first.exists && first.num < t_max * first.den);
+        const auto candidate = line.disc > zero && !words_equal(left_id, U(k));
+        if constexpr (from_origin) {
+            const F g = mul_add(line.c, inverse_t_max, zero - line.b);
+            const auto near_root = line.b > zero && line.c > zero && (g < zero || g * g < line.disc);
+            blocked = blocked || (candidate && near_root);
+        }
+        const auto rest = from_origin ? candidate && line.c <= zero : candidate && (line.b > zero || line.c < zero);
+        if (any(rest)) {
+            const auto first = first_root<V>(line, root(line.disc), t_min, rest);
+            blocked = blocked || (first.exists && first.num * inverse_t_max < first.den);
+        }
         if (all(blocked)) break;
     }
     return blocked && live;

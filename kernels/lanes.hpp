@@ -95,6 +95,43 @@ ORRERY_INLINE T gather(const Element* table, const U& index) {
     }
 }
 
+/// As gather, for a table of `size` entries that is readable up to `widest` ones: a table no longer than a vector is
+/// permuted in register, one operation where a gather is a load per lane.
+template <class T, class Element, class U>
+ORRERY_INLINE T lookup(const Element* table, const U& index, std::uint32_t size) {
+    static_cast<void>(size);
+#if defined(__AVX512F__)
+    if constexpr (!std::is_arithmetic_v<T> && sizeof(Element) == 4) {
+        if constexpr (T::size == 16) {
+            if (size <= 16) {
+                const __m512i i = index;
+                if constexpr (std::is_floating_point_v<Element>) {
+                    return T(_mm512_permutexvar_ps(i, _mm512_loadu_ps(table)));
+                } else {
+                    return T(_mm512_permutexvar_epi32(i, _mm512_loadu_si512(table)));
+                }
+            }
+        }
+    }
+#endif
+#if defined(__AVX2__)
+    if constexpr (!std::is_arithmetic_v<T> && sizeof(Element) == 4) {
+        if constexpr (T::size == 8) {
+            if (size <= 8) {
+                const __m256i i = index;
+                if constexpr (std::is_floating_point_v<Element>) {
+                    return T(_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), i));
+                } else {
+                    const auto* words = reinterpret_cast<const __m256i*>(table);
+                    return T(_mm256_permutevar8x32_epi32(_mm256_loadu_si256(words), i));
+                }
+            }
+        }
+    }
+#endif
+    return gather<T>(table, index);
+}
+
 // --- masks --------------------------------------------------------------------------------------------------------
 
 ORRERY_INLINE bool any(bool m) { return m; }

@@ -8,9 +8,9 @@ namespace orrery::kernels {
 
 template <class V>
 struct LightSample {
-    Vec3<typename V::F> direction;  ///< unit length
-    typename V::F distance;         ///< to the sampled point of the light
-    typename V::F inverse_pdf;      ///< 1 / density per solid angle, > 0 where valid
+    Vec3<typename V::F> direction;   ///< unit length
+    typename V::F inverse_distance;  ///< 1 / distance to the sampled point of the light
+    typename V::F inverse_pdf;       ///< 1 / density per solid angle, > 0 where valid
     typename V::M valid;
 };
 
@@ -22,28 +22,29 @@ ORRERY_INLINE LightSample<V> sample_light_area(const Vec3<typename V::F>& p, con
     using F = typename V::F;
     const Vec3<F> n = sample_unit_sphere<V>(u, v);
     const Vec3<F> to = along(light.centre, light.radius, n) - p;
-    const F distance2 = dot(to, to);
-    const F distance = root(distance2);
-    const Vec3<F> direction = to * (F(1) / distance);
+    const F inverse_distance = F(1) / root(dot(to, to));
+    const Vec3<F> direction = to * inverse_distance;
     const F cosine = dot(n, direction);
     const F facing = choose(inside, cosine, F(0) - cosine);
     const F area = F(static_cast<typename V::Real>(4 * std::numbers::pi)) * light.radius * light.radius;
-    return {direction, distance, area * facing / distance2, facing > F(0) && distance > F(0)};
+    return {direction, inverse_distance, area * facing * inverse_distance * inverse_distance, facing > F(0)};
 }
 
 /// The cone a light subtends from outside.
 template <class F>
 struct LightCone {
     F distance2;         ///< to the centre, squared
+    F inverse_distance;  ///< 1 / distance to the centre
     F one_minus_cosine;  ///< of the half angle
 };
 /// `f` = p - centre, `c` its power > 0.
 template <class F>
 ORRERY_INLINE LightCone<F> light_cone(const Vec3<F>& f, const F& c, const F& radius) {
     const F distance2 = dot(f, f);
-    const F inverse = F(1) / distance2;
-    // 1 - r^2/d^2 = c/d^2: exact digits however close the light.
-    return {distance2, one_minus_cosine(radius * radius * inverse, root(max(c, F(0)) * inverse))};
+    const F inverse = F(1) / root(distance2);
+    const F sine = radius * inverse;
+    // sqrt(1 - r^2/d^2) = sqrt(c)/d: exact digits however close the light.
+    return {distance2, inverse, one_minus_cosine(sine * sine, root(max(c, F(0))) * inverse)};
 }
 
 /// Uniform over the subtended solid angle, p = 1 / (2 pi (1 - cos)). From outside only.
@@ -54,14 +55,14 @@ ORRERY_INLINE LightSample<V> sample_light_cone(const Vec3<typename V::F>& p, con
     const Vec3<F> f = p - light.centre;
     const F c = power_of_point(f, light.radius);
     const auto cone = light_cone(f, c, light.radius);
-    const F d = root(cone.distance2);
-    const Vec3<F> axis = f * (F(-1) / d);
+    const Vec3<F> axis = f * (F(0) - cone.inverse_distance);
     const F x = u * cone.one_minus_cosine;  // 1 - cos of the sampled angle
     const F cosine = F(1) - x;
     const F sin2 = x * (F(2) - x);
     const Vec3<F> direction = in_frame(axis, cosine, root(sin2), sincos_turns<V>(v));
     const F s = root(max(neg_mul_add(cone.distance2, sin2, light.radius * light.radius), F(0)));
-    return {direction, c / mul_add(d, cosine, s),
+    const F d = cone.distance2 * cone.inverse_distance;
+    return {direction, mul_add(d, cosine, s) / c,
             F(static_cast<typename V::Real>(2 * std::numbers::pi)) * cone.one_minus_cosine, c > F(0)};
 }
 

@@ -33,14 +33,17 @@ struct RayQueue {
     Real* eta_scale;     ///< product of the (eta_i / eta_t)^2 inside the throughput. Null without dielectrics.
     Word* left;          ///< sphere the ray leaves, inside_bit set when it runs inward; no_sphere from the camera
     Word* slot;          ///< which (pixel, sample) of the wave
+    Word* pixel;         ///< the slot's pixel and sample, which randomness is keyed with: carried along, because moving
+    Word* sample;        ///< two words with the ray costs less than gathering them by slot at a vertex's four uses
 
     template <class Visit>
-    static void each_field(Visit&& visit) {
+    ORRERY_INLINE static void each_field(Visit&& visit) {
         visit("ox", &RayQueue::ox), visit("oy", &RayQueue::oy), visit("oz", &RayQueue::oz);
         visit("dx", &RayQueue::dx), visit("dy", &RayQueue::dy), visit("dz", &RayQueue::dz);
         visit("tr", &RayQueue::tr), visit("tg", &RayQueue::tg), visit("tb", &RayQueue::tb);
         visit("pdf", &RayQueue::pdf), visit("eta_scale", &RayQueue::eta_scale);
         visit("left", &RayQueue::left), visit("slot", &RayQueue::slot);
+        visit("pixel", &RayQueue::pixel), visit("sample", &RayQueue::sample);
     }
 };
 
@@ -52,7 +55,7 @@ struct HitQueue {
     Word* id;  ///< sphere, inside_bit set when met from inside; no_sphere where nothing was hit
 
     template <class Visit>
-    static void each_field(Visit&& visit) {
+    ORRERY_INLINE static void each_field(Visit&& visit) {
         visit("t", &HitQueue::t), visit("id", &HitQueue::id);
     }
 };
@@ -65,7 +68,7 @@ struct LobeQueue {
     Real *x, *y, *z;  ///< unit length
 
     template <class Visit>
-    static void each_field(Visit&& visit) {
+    ORRERY_INLINE static void each_field(Visit&& visit) {
         visit("lobe_x", &LobeQueue::x), visit("lobe_y", &LobeQueue::y), visit("lobe_z", &LobeQueue::z);
     }
 };
@@ -74,18 +77,18 @@ struct LobeQueue {
 template <class Real>
 struct ShadowQueue {
     using Word = WordOf<Real>;
-    Real *ox, *oy, *oz;  ///< origin, scene units
-    Real *dx, *dy, *dz;  ///< direction, unit length
-    Real* t_max;         ///< distance to the light
-    Real *r, *g, *b;     ///< contribution if unoccluded
-    Word* left;          ///< as in RayQueue
+    Real *ox, *oy, *oz;   ///< origin, scene units
+    Real *dx, *dy, *dz;   ///< direction, unit length
+    Real* inverse_t_max;  ///< 1 / distance to the light; what the occlusion test wants
+    Real *r, *g, *b;      ///< contribution if unoccluded
+    Word* left;           ///< as in RayQueue
     Word* slot;
 
     template <class Visit>
-    static void each_field(Visit&& visit) {
+    ORRERY_INLINE static void each_field(Visit&& visit) {
         visit("ox", &ShadowQueue::ox), visit("oy", &ShadowQueue::oy), visit("oz", &ShadowQueue::oz);
         visit("dx", &ShadowQueue::dx), visit("dy", &ShadowQueue::dy), visit("dz", &ShadowQueue::dz);
-        visit("t_max", &ShadowQueue::t_max);
+        visit("inverse_t_max", &ShadowQueue::inverse_t_max);
         visit("r", &ShadowQueue::r), visit("g", &ShadowQueue::g), visit("b", &ShadowQueue::b);
         visit("left", &ShadowQueue::left), visit("slot", &ShadowQueue::slot);
     }
@@ -99,13 +102,13 @@ struct SlotTable {
     Word* sample;             ///< sample number within the pixel
     Word* node;               ///< Whitted: node of the ray tree the slot's ray is, root 1, children 2n and 2n + 1
     Real *plane_x, *plane_y;  ///< corner of the sample's cell on the image plane at distance 1
-    Real *r, *g, *b;          ///< radiance gathered so far
+    Real* radiance;           ///< gathered so far: r, g, b and one unused, four numbers per slot
 
     template <class Visit>
-    static void each_field(Visit&& visit) {
+    ORRERY_INLINE static void each_field(Visit&& visit) {
         visit("pixel", &SlotTable::pixel), visit("sample", &SlotTable::sample), visit("node", &SlotTable::node);
         visit("plane_x", &SlotTable::plane_x), visit("plane_y", &SlotTable::plane_y);
-        visit("r", &SlotTable::r), visit("g", &SlotTable::g), visit("b", &SlotTable::b);
+        visit("radiance", &SlotTable::radiance);
     }
 };
 

@@ -27,7 +27,7 @@ std::uint32_t roulette(const SlotTable<typename V::Real>& slots, std::uint32_t s
                 const F scale = rays.eta_scale != nullptr ? load<F>(rays.eta_scale + i) : F(1);
                 const F q = min(carried / scale, F(1));
                 const U slot = choose(in_run, load<U>(rays.slot + i), U(0u));
-                alive = alive && random_for<V>(slots, key, bounce, slot).x < q;
+                alive = alive && random_for<V>(slots, rays, i, key, bounce, slot).x < q;
                 store3<V>(rays.tr + i, rays.tg + i, rays.tb + i, throughput * (F(1) / q));
             }
             const std::uint32_t chosen = bits(alive);

@@ -37,12 +37,13 @@ struct Scattered {
 template <class V>
 ORRERY_INLINE Vec3<typename V::F> reflectance_of(const MaterialTable<typename V::Real>& materials,
                                                  const typename V::U& material) {
-    return gather3<V>(materials.rho_r, materials.rho_g, materials.rho_b, material);
+    return lookup3<V>(materials.rho_r, materials.rho_g, materials.rho_b, material, materials.count);
 }
 
 template <class V, Scattering kind>
 ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<typename V::Real>& context, const Vertex<V>& vertex,
-                                      const Vec3<typename V::F>& direction, const typename V::U& slot) {
+                                      const Vec3<typename V::F>& direction, const RayQueue<typename V::Real>& rays,
+                                      std::uint32_t i, const typename V::U& slot) {
     using F = typename V::F;
     using U = typename V::U;
     using Real = typename V::Real;
@@ -54,7 +55,8 @@ ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<typename V::Real>& co
         const Vec3<F> mirror = reflected(direction, vertex.normal, vertex.cosine);
         return {unit(mirror), rho, infinity, one, vertex.side, mirror};
     }
-    const auto random = random_for<V>(context.slots, {context.seed, Dimension::scattering, 0}, context.bounce, slot);
+    const auto random =
+        random_for<V>(context.slots, rays, i, {context.seed, Dimension::scattering, 0}, context.bounce, slot);
     if constexpr (kind == Scattering::diffuse) {
         const auto sample = sample_cosine<V>(vertex.normal, random.x, random.y);
         const F pdf = context.competing_pdf ? sample.cosine * F(static_cast<Real>(std::numbers::inv_pi)) : F(0);
@@ -67,12 +69,13 @@ ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<typename V::Real>& co
         U side = vertex.side;
         Vec3<F> normal = vertex.normal;  // on the side the lobe leaves
         if constexpr (kind == Scattering::dielectric || kind == Scattering::translucent) {
-            const F eta = gather<F>(materials.eta, vertex.material);
+            const F eta = lookup<F>(materials.eta, vertex.material, materials.count);
             const auto from_outside = words_equal(vertex.side, U(0u));
             const auto at = interface_at<V>(vertex.cosine, choose(from_outside, eta, one / eta));
             // One lobe at random, chosen with probability F: what F multiplies cancels.
             const auto reflects = random.z < at.reflectance;
-            const Vec3<F> tau = gather3<V>(materials.tau_r, materials.tau_g, materials.tau_b, vertex.material);
+            const Vec3<F> tau =
+                lookup3<V>(materials.tau_r, materials.tau_g, materials.tau_b, vertex.material, materials.count);
             scale = choose(reflects, one, at.inverse_eta * at.inverse_eta);
             weight = choose(reflects, rho, tau * scale);
             lobe = choose(reflects, lobe, refracted<V>(direction, vertex.normal, vertex.cosine, at));
@@ -84,7 +87,7 @@ ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<typename V::Real>& co
         if constexpr (kind == Scattering::dielectric) {
             return {lobe, weight, infinity, scale, side, lobe};
         } else {
-            const F beta = gather<F>(materials.roughness, vertex.material);
+            const F beta = lookup<F>(materials.roughness, vertex.material, materials.count);
             const auto sample = sample_glossy<V>(lobe, normal, lobe_cosine, beta, random.x, random.y);
             return {sample.direction, weight, context.competing_pdf ? sample.pdf : infinity, scale, side, lobe};
         }
@@ -110,7 +113,7 @@ void scatter(const ScatterContext<typename V::Real>& context, Range run, const R
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
 
         const auto vertex = vertex_at<V>(context.spheres, o, d, load<F>(hits.t + i), hit);
-        const auto out = scatter_at<V, kind>(context, vertex, d, slot);
+        const auto out = scatter_at<V, kind>(context, vertex, d, rays, i, slot);
 
         store3<V>(rays.ox + i, rays.oy + i, rays.oz + i, vertex.position);
         store3<V>(rays.dx + i, rays.dy + i, rays.dz + i, out.direction);

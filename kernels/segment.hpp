@@ -37,7 +37,7 @@ template <class Real>
 bool is_occluded(const SphereTable<Real>& spheres, const Segment<Real>& segment) {
     using V = ScalarLanes<Real>;
     const Vec3<Real> o{segment.ox, segment.oy, segment.oz}, d{segment.dx, segment.dy, segment.dz};
-    return any_hit<V>(spheres, o, d, WordOf<Real>{no_sphere}, segment.t_min, segment.t_max, no_sphere, true);
+    return any_hit<V>(spheres, o, d, WordOf<Real>{no_sphere}, segment.t_min, Real(1) / segment.t_max, no_sphere, true);
 }
 
 /// Segments as columns, capacity a multiple of `widest`.

@@ -17,7 +17,8 @@ void shadow(const SphereTable<typename V::Real>& spheres, const ShadowQueue<type
         const auto o = load3<V>(queue.ox + i, queue.oy + i, queue.oz + i);
         const auto d = load3<V>(queue.dx + i, queue.dy + i, queue.dz + i);
         const U left = choose(live, load<U>(queue.left + i), U(no_sphere));
-        const auto blocked = any_hit<V>(spheres, o, d, left, FromOrigin{}, load<F>(queue.t_max + i), skip, live);
+        const auto blocked =
+            any_hit<V>(spheres, o, d, left, FromOrigin{}, load<F>(queue.inverse_t_max + i), skip, live);
         const std::uint32_t lit = bits(live && !blocked);
         if (lit == 0) continue;
         add_radiance<V>(slots, load<U>(queue.slot + i), load3<V>(queue.r + i, queue.g + i, queue.b + i), lit);

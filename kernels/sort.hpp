@@ -25,7 +25,7 @@ ORRERY_INLINE LiveHits<V> live_hits(const SphereTable<typename V::Real>& spheres
     const U hit = load<U>(hits.id + i);
     const F carried = max(load<F>(rays.tr + i), max(load<F>(rays.tg + i), load<F>(rays.tb + i)));
     const auto live = first_lanes<V>(count - i) && !words_equal(hit, U(no_sphere)) && carried != F(0);
-    return {live, gather<U>(spheres.surface, choose(live, hit & U(no_sphere), U(0u)))};
+    return {live, lookup<U>(spheres.surface, choose(live, hit & U(no_sphere), U(0u)), spheres.count)};
 }
 
 template <class V>

@@ -31,7 +31,8 @@ ORRERY_INLINE Sphere<typename V::F> broadcast_sphere(const SphereTable<typename 
 template <class V>
 ORRERY_INLINE Sphere<typename V::F> gather_sphere(const SphereTable<typename V::Real>& spheres,
                                                   const typename V::U& id) {
-    return {gather3<V>(spheres.cx, spheres.cy, spheres.cz, id), gather<typename V::F>(spheres.radius, id)};
+    return {lookup3<V>(spheres.cx, spheres.cy, spheres.cz, id, spheres.count),
+            lookup<typename V::F>(spheres.radius, id, spheres.count)};
 }
 
 /// f.f - r^2: > 0 outside the sphere, < 0 inside (the power of the point).

@@ -23,6 +23,7 @@ inline constexpr std::uint32_t surface_kind_mask = 0x7F;
 inline constexpr std::uint32_t inside_bit = 1u << 31;
 inline constexpr std::uint32_t no_sphere = 0x7FFFFFFFu;
 
+/// Columns of every table are readable up to a whole vector behind the last entry.
 template <class Real>
 struct SphereTable {
     using Word = WordOf<Real>;
@@ -37,6 +38,7 @@ struct SphereTable {
 
 template <class Real>
 struct MaterialTable {
+    std::uint32_t count = 0;
     const Real* rho_r = nullptr;  ///< reflectance (rhoR of a dielectric), [0, 1]
     const Real* rho_g = nullptr;
     const Real* rho_b = nullptr;
@@ -64,6 +66,7 @@ struct AreaLight {
 /// What an area light emits, by light index, for rays that run into one.
 template <class Real>
 struct EmissionTable {
+    std::uint32_t count = 0;
     const Real* r = nullptr;
     const Real* g = nullptr;
     const Real* b = nullptr;

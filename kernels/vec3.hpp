@@ -51,10 +51,10 @@ ORRERY_INLINE Vec3<typename V::F> load3(const typename V::Real* x, const typenam
     return {load<F>(x), load<F>(y), load<F>(z)};
 }
 template <class V>
-ORRERY_INLINE Vec3<typename V::F> gather3(const typename V::Real* x, const typename V::Real* y,
-                                          const typename V::Real* z, const typename V::U& index) {
+ORRERY_INLINE Vec3<typename V::F> lookup3(const typename V::Real* x, const typename V::Real* y,
+                                          const typename V::Real* z, const typename V::U& index, std::uint32_t size) {
     using F = typename V::F;
-    return {gather<F>(x, index), gather<F>(y, index), gather<F>(z, index)};
+    return {lookup<F>(x, index, size), lookup<F>(y, index, size), lookup<F>(z, index, size)};
 }
 template <class V>
 ORRERY_INLINE void store3(typename V::Real* x, typename V::Real* y, typename V::Real* z, const Vec3<typename V::F>& v) {

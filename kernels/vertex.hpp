@@ -33,8 +33,12 @@ ORRERY_INLINE Vertex<V> vertex_at(const SphereTable<typename V::Real>& spheres, 
     const Vec3<F> position = along(sphere.centre, sphere.radius, outward);
     const Vec3<F> normal = choose(inside, outward * F(-1), outward);
     const F cosine = min(max(F(0) - dot(normal, direction), F(0)), F(1));
-    return {
-        position, normal, cosine, id, hit & U(inside_bit), gather<U>(spheres.surface, id) & U(surface_material_mask)};
+    return {position,
+            normal,
+            cosine,
+            id,
+            hit & U(inside_bit),
+            lookup<U>(spheres.surface, id, spheres.count) & U(surface_material_mask)};
 }
 
 /// The vertex number randomness is keyed with: the bounce of a path, or the node of the slot's Whitted ray.
@@ -45,12 +49,14 @@ ORRERY_INLINE typename V::U vertex_number(const SlotTable<typename V::Real>& slo
     return slots.node != nullptr ? gather<U>(slots.node, slot) : U(bounce);
 }
 
-/// Four random numbers for each ray of a queue.
+/// Four random numbers for rays i.. of a queue.
 template <class V>
-ORRERY_INLINE RandomNumbers<typename V::F> random_for(const SlotTable<typename V::Real>& slots, const RandomKey& key,
-                                                      std::uint32_t bounce, const typename V::U& slot) {
+ORRERY_INLINE RandomNumbers<typename V::F> random_for(const SlotTable<typename V::Real>& slots,
+                                                      const RayQueue<typename V::Real>& rays, std::uint32_t i,
+                                                      const RandomKey& key, std::uint32_t bounce,
+                                                      const typename V::U& slot) {
     using U = typename V::U;
-    return random_block<V>(key, gather<U>(slots.pixel, slot), gather<U>(slots.sample, slot),
+    return random_block<V>(key, load<U>(rays.pixel + i), load<U>(rays.sample + i),
                            vertex_number<V>(slots, bounce, slot));
 }
 

@@ -48,12 +48,13 @@ void branch(const ScatterContext<typename V::Real>& context, Range run, const Ra
         const auto vertex =
             vertex_at<V>(context.spheres, load3<V>(rays.ox + i, rays.oy + i, rays.oz + i), d, load<F>(hits.t + i), hit);
         const auto& materials = context.materials;
-        const F eta = gather<F>(materials.eta, vertex.material);
+        const F eta = lookup<F>(materials.eta, vertex.material, materials.count);
         const auto at = interface_at<V>(vertex.cosine, choose(words_equal(vertex.side, zero), eta, F(1) / eta));
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
         const auto rho = reflectance_of<V>(materials, vertex.material) * at.reflectance;
-        const auto tau = gather3<V>(materials.tau_r, materials.tau_g, materials.tau_b, vertex.material) *
-                         ((F(1) - at.reflectance) * at.inverse_eta * at.inverse_eta);
+        const auto tau =
+            lookup3<V>(materials.tau_r, materials.tau_g, materials.tau_b, vertex.material, materials.count) *
+            ((F(1) - at.reflectance) * at.inverse_eta * at.inverse_eta);
         const auto weigh = [&](const Vec3<F>& w) {
             const Vec3<F> out{throughput.x * w.x, throughput.y * w.y, throughput.z * w.z};
             const auto keep = live && max(out.x, max(out.y, out.z)) >= F(branch_cut<Real>);
@@ -116,8 +117,10 @@ std::uint32_t resume(const SlotTable<typename V::Real>& slots, const BranchStack
         if (live[s] == 0 && stack.height[s] != 0) {
             const std::size_t entry = std::size_t{--stack.height[s]} * stack.slots + s;
             RayQueue<typename V::Real>::each_field([&](const char*, auto field) {
-                if (rays.*field != nullptr) (rays.*field)[count] = (stack.rays.*field)[entry];
+                if (stack.rays.*field != nullptr) (rays.*field)[count] = (stack.rays.*field)[entry];
             });
+            rays.pixel[count] = slots.pixel[s];
+            rays.sample[count] = slots.sample[s];
             slots.node[s] = stack.node[entry];
             ++count;
         }

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "kernels/queues.hpp"
+
 namespace orrery {
 
 using kernels::Scattering;
@@ -30,6 +32,12 @@ Scattering scattering_of(const Material& material, Integrator integrator) {
 }
 
 bool is_black(const glm::dvec3& light) { return light.r == 0 && light.g == 0 && light.b == 0; }
+
+/// Kernels read whole vectors, and look up entry 0 for dead lanes.
+template <class Columns>
+void pad(Columns& columns) {
+    for (auto& column : columns) column.resize(column.size() + kernels::widest);
+}
 
 constexpr std::uint32_t bit(Scattering kind) { return 1u << static_cast<unsigned>(kind); }
 
@@ -120,10 +128,9 @@ void Plan::plan_surfaces() {
         sphere_words_[1].push_back(light);
         ++index;
     }
-    if (index == 0) {  // kernels may look up sphere 0 for dead lanes
-        for (auto& column : sphere_columns_) column.push_back(1);
-        for (auto& column : sphere_words_) column.push_back(0);
-    }
+    pad(sphere_columns_);
+    pad(sphere_words_);
+    pad(material_columns_);
     spheres_ = {index,
                 sphere_columns_[0].data(),
                 sphere_columns_[1].data(),
@@ -131,9 +138,15 @@ void Plan::plan_surfaces() {
                 sphere_columns_[3].data(),
                 sphere_words_[0].data(),
                 sphere_words_[1].data()};
-    materials_ = {material_columns_[0].data(), material_columns_[1].data(), material_columns_[2].data(),
-                  material_columns_[3].data(), material_columns_[4].data(), material_columns_[5].data(),
-                  material_columns_[6].data(), material_columns_[7].data()};
+    materials_ = {static_cast<std::uint32_t>(scene_.materials.size()),
+                  material_columns_[0].data(),
+                  material_columns_[1].data(),
+                  material_columns_[2].data(),
+                  material_columns_[3].data(),
+                  material_columns_[4].data(),
+                  material_columns_[5].data(),
+                  material_columns_[6].data(),
+                  material_columns_[7].data()};
 }
 
 void Plan::plan_lights() {
@@ -144,9 +157,9 @@ void Plan::plan_lights() {
                                  f(light.intensity.g), f(light.intensity.b)});
     }
     const glm::dvec3& b = scene_.background;
-    for (auto& column : emission_columns_)
-        if (column.empty()) column.push_back(0);  // looked up for dead lanes
-    emission_ = {emission_columns_[0].data(),
+    pad(emission_columns_);
+    emission_ = {static_cast<std::uint32_t>(area_lights_.size()),
+                 emission_columns_[0].data(),
                  emission_columns_[1].data(),
                  emission_columns_[2].data(),
                  f(b.r),

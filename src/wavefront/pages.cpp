@@ -195,7 +195,7 @@ void trace_distances(Wave& w) {
     for (std::uint32_t slot = 0; slot < w.count; ++slot) {
         const bool missed = s.hits.id[slot] == kernels::no_sphere;
         const float distance = missed ? w.plan.enclosing_distance() : s.hits.t[slot];
-        s.slots.r[slot] = s.slots.g[slot] = s.slots.b[slot] = distance;
+        for (std::size_t c = 0; c < 3; ++c) s.slots.radiance[4 * slot + c] = distance;
     }
 }
 

@@ -73,8 +73,10 @@ void flush(Wave& wave) {
     if (wave.count == 0) return;
     trace(wave);
     const auto& slots = wave.storage.slots;
-    for (std::uint32_t s = 0; s < wave.count; ++s)
-        if (!wave.film.add(slots.pixel[s], slots.r[s], slots.g[s], slots.b[s])) ++wave.counters.dropped_samples;
+    for (std::uint32_t s = 0; s < wave.count; ++s) {
+        const float* const rgb = slots.radiance + std::size_t{4} * s;
+        if (!wave.film.add(slots.pixel[s], rgb[0], rgb[1], rgb[2])) ++wave.counters.dropped_samples;
+    }
     wave.count = 0;
 }
 
@@ -86,9 +88,13 @@ bool render_tile(Wave& wave, const Tile& tile, const std::function<bool()>& inte
     const std::uint32_t strata = plan.strata();
     const std::uint32_t samples = plan.samples();
     const bool stratified = plan.settings().estimator == Estimator::stratified;
+    const double cell_width = 2 * plan.half_width() / width / strata;
+    const double cell_height = 2 * plan.half_height() / height / strata;
     auto& slots = wave.storage.slots;
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
+            const double left = (2.0 * x / width - 1) * plan.half_width();
+            const double top = (1 - 2.0 * y / height) * plan.half_height();
             std::uint32_t cell_x = 0, cell_y = 0;
             for (std::uint32_t sample = 0; sample < samples; ++sample) {
                 if (wave.count == wave.storage.slot_count) {
@@ -98,10 +104,8 @@ bool render_tile(Wave& wave, const Tile& tile, const std::function<bool()>& inte
                 const std::uint32_t s = wave.count++;
                 slots.pixel[s] = y * width + x;
                 slots.sample[s] = sample;
-                const double px = (x + static_cast<double>(cell_x) / strata) / width;
-                const double py = (y + static_cast<double>(cell_y) / strata) / height;
-                slots.plane_x[s] = static_cast<float>((2 * px - 1) * plan.half_width());
-                slots.plane_y[s] = static_cast<float>((1 - 2 * py) * plan.half_height());
+                slots.plane_x[s] = static_cast<float>(left + cell_x * cell_width);
+                slots.plane_y[s] = static_cast<float>(top - cell_y * cell_height);
                 if (stratified && ++cell_x == strata) cell_x = 0, ++cell_y;
             }
         }

@@ -52,9 +52,7 @@ std::size_t WaveStorage::carve(std::byte* base, const Needs& needs, std::uint32_
     if (needs.integrator == Integrator::whitted) carver.field(slots.node, padded);
     carver.field(slots.plane_x, padded);
     carver.field(slots.plane_y, padded);
-    carver.field(slots.r, padded);
-    carver.field(slots.g, padded);
-    carver.field(slots.b, padded);
+    carver.field(slots.radiance, std::size_t{4} * padded);
     ray_fields(rays, capacity);
     carver.queue(hits, capacity);
     if (needs.sort) {
@@ -68,6 +66,7 @@ std::size_t WaveStorage::carve(std::byte* base, const Needs& needs, std::uint32_
         branches.levels = depth;
         carver.field(branches.height, padded);
         ray_fields(branches.rays, std::size_t{slot_count} * depth);
+        branches.rays.pixel = branches.rays.sample = nullptr;  // the slot knows them
         carver.field(branches.node, std::size_t{slot_count} * depth);
         carver.field(live, padded);
     }
