@@ -1,0 +1,16 @@
+// Images to bytes and back, without files.
+#pragma once
+
+#include "image/bytes.hpp"
+#include "image/image_file.hpp"
+
+namespace orrery {
+
+/// The whole file in memory, so that nothing on disk is touched before all of it is known. `mapper` concerns the
+/// 8-bit formats only. Throws std::runtime_error, and std::bad_alloc.
+Bytes encode_image(ImageFormat format, const Image& linear, ToneMap mapper, const Metadata& metadata);
+
+/// By the first bytes, whatever the file is called. Throws std::runtime_error.
+Image decode_image(ByteView file);
+
+}  // namespace orrery
