@@ -1,0 +1,213 @@
+#include "image/atomic_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+
+#include "system_faults.hpp"
+#include "temporary_folder.hpp"
+
+namespace orrery {
+namespace {
+
+namespace fs = std::filesystem;
+using test::load;
+using test::SystemCall;
+using test::SystemFault;
+using test::TemporaryFolder;
+using test::to_bytes;
+using Names = std::vector<std::string>;
+
+/// What writing complains about, "none" where it does not.
+std::string fault_of(const fs::path& file, std::size_t size = 3) {
+    try {
+        write_atomically(file, Bytes(size, std::byte{'n'}));
+        return "none";
+    } catch (const std::runtime_error& fault) {
+        return fault.what();
+    }
+}
+
+mode_t mode_of(const fs::path& file) {
+    struct stat status = {};
+    EXPECT_EQ(::stat(file.c_str(), &status), 0);
+    return status.st_mode & mode_t{07777};
+}
+
+TEST(AtomicFile, WritesAndReplaces) {
+    const TemporaryFolder folder;
+    write_atomically(folder / "x", to_bytes("first, longer"));
+    EXPECT_EQ(load(folder / "x"), "first, longer");
+    write_atomically(folder / "x", to_bytes("second"));
+    EXPECT_EQ(load(folder / "x"), "second");
+    write_atomically(folder / "x", {});
+    EXPECT_EQ(load(folder / "x"), "");
+    EXPECT_EQ(folder.names(), Names{"x"});
+}
+
+TEST(AtomicFile, TakesANameWithoutAFolder) {
+    const TemporaryFolder folder;
+    const fs::path before = fs::current_path();
+    fs::current_path(folder.path());
+    write_atomically("x", to_bytes("here"));
+    fs::current_path(before);
+    EXPECT_EQ(load(folder / "x"), "here");
+}
+
+TEST(AtomicFile, TakesTheLongestNameAFolderHolds) {
+    const TemporaryFolder folder;
+    const std::string name(255, 'x');
+    EXPECT_EQ(fault_of(folder / name.c_str()), "none");
+    EXPECT_EQ(folder.names(), Names{name});
+}
+
+TEST(AtomicFile, GivesANewFileTheModeTheUmaskAllows) {
+    const TemporaryFolder folder;
+    const mode_t before = ::umask(027);
+    write_atomically(folder / "x", to_bytes("x"));
+    ::umask(before);
+    EXPECT_EQ(mode_of(folder / "x"), mode_t{0640});
+}
+
+TEST(AtomicFile, KeepsTheModeOfTheFileItReplaces) {
+    const TemporaryFolder folder;
+    for (const mode_t mode : {mode_t{0600}, mode_t{0664}}) {
+        test::store(folder / "x", to_bytes("old"));
+        ASSERT_EQ(::chmod((folder / "x").c_str(), mode), 0);
+        write_atomically(folder / "x", to_bytes("new"));
+        EXPECT_EQ(mode_of(folder / "x"), mode);
+    }
+}
+
+TEST(AtomicFile, FollowsLinks) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "data");
+    fs::create_symlink("data/x", folder / "link");
+    fs::create_symlink(folder / "link", folder / "link to link");
+    EXPECT_EQ(fault_of(folder / "link to link"), "none");  // leads to nothing yet
+    write_atomically(folder / "link", to_bytes("new"));
+    EXPECT_EQ(load(folder / "data" / fs::path("x")), "new");
+    EXPECT_TRUE(fs::is_symlink(folder / "link"));
+    EXPECT_TRUE(fs::is_symlink(folder / "link to link"));
+    EXPECT_EQ(folder.names(), (Names{"data", "link", "link to link"}));
+}
+
+TEST(AtomicFile, RefusesALoopOfLinks) {
+    const TemporaryFolder folder;
+    fs::create_symlink("b", folder / "a");
+    fs::create_symlink("a", folder / "b");
+    EXPECT_EQ(fault_of(folder / "a"),
+              (folder / "a").string() + ": cannot follow the link: Too many levels of symbolic links");
+}
+
+TEST(AtomicFile, NamesAMissingFolder) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "no" / fs::path("x.ppm")).string();
+    EXPECT_EQ(fault_of(file), file + ": the folder " + (folder / "no").string() + " does not exist");
+}
+
+TEST(AtomicFile, RefusesWhatIsNotARegularFile) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "d");
+    EXPECT_EQ(fault_of(folder / "d"), (folder / "d").string() + ": is a directory");
+    EXPECT_EQ(fault_of(folder / "d/"), (folder / "d/").string() + ": is a directory");
+    fs::create_symlink("/dev/null", folder / "null");
+    EXPECT_EQ(fault_of(folder / "null"), (folder / "null").string() + ": not a regular file");
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+    test::store(folder / "f", to_bytes("f"));
+    EXPECT_NE(fault_of(folder / "f" / fs::path("x")), "none");
+    EXPECT_EQ(folder.names(), (Names{"d", "f", "null"}));
+}
+
+/// Ends the process with 0 where neither a protected file is replaced nor one made in a protected folder. As root
+/// nothing is protected, so root gives up its rights first; the folder is root's then and closed to it.
+[[noreturn]] void try_protected(const TemporaryFolder& folder) {
+    constexpr uid_t nobody = 65534;
+    const bool root = ::geteuid() == 0;
+    if (root && ::seteuid(nobody) != 0) ::_exit(1);
+    const std::string replacing = fault_of(folder / "protected");
+    if (!root) fs::permissions(folder.path(), fs::perms(0555));
+    const std::string making = fault_of(folder / "x");
+    if (!root) fs::permissions(folder.path(), fs::perms(0755));
+    const std::string path = folder.path().string();
+    if (replacing != path + "/protected: cannot be replaced: Permission denied") ::_exit(2);
+    if (making != path + "/x: cannot write to the folder " + path + ": Permission denied") ::_exit(3);
+    ::_exit(0);
+}
+
+TEST(AtomicFileDeathTest, RefusesAFolderOrAFileThatIsProtected) {
+    const TemporaryFolder folder;
+    test::store(folder / "protected", to_bytes("old"));
+    fs::permissions(folder / "protected", fs::perms(0444));
+    EXPECT_EXIT(try_protected(folder), ::testing::ExitedWithCode(0), "");
+    EXPECT_EQ(load(folder / "protected"), "old");
+    EXPECT_EQ(folder.names(), Names{"protected"});
+}
+
+// The kernel's own refusal in the middle of the data: the limit of a file's size, which takes no privilege.
+TEST(AtomicFile, LeavesThePreviousFileWhenTheDataDoNotFit) {
+    const TemporaryFolder folder;
+    test::store(folder / "x", to_bytes("old"));
+    rlimit before = {};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit tight = {10000, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &tight), 0);
+    const std::string fault = fault_of(folder / "x", 20000);
+    const std::string fits = fault_of(folder / "y", 10000);
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(fault, (folder / "x").string() + ": cannot write: File too large");
+    EXPECT_EQ(fits, "none");
+    EXPECT_EQ(load(folder / "x"), "old");
+    EXPECT_EQ(folder.names(), (Names{"x", "y"}));
+}
+
+TEST(AtomicFile, LeavesThePreviousFileWhateverCallFails) {
+    const TemporaryFolder folder;
+    test::store(folder / "x", to_bytes("old"));
+    const std::string file = (folder / "x").string();
+    for (const SystemCall call : {SystemCall::write, SystemCall::fsync, SystemCall::close}) {
+        const SystemFault full(call, ENOSPC);
+        EXPECT_EQ(fault_of(file), file + ": cannot write: No space left on device");
+        const SystemFault broken(call, EIO);
+        EXPECT_EQ(fault_of(file), file + ": cannot write: Input/output error");
+    }
+    {
+        const SystemFault fault(SystemCall::rename, EPERM);
+        EXPECT_EQ(fault_of(file), file + ": cannot rename the temporary: Operation not permitted");
+    }
+    EXPECT_EQ(load(file), "old");
+    EXPECT_EQ(folder.names(), Names{"x"});
+    EXPECT_EQ(fault_of(file), "none");
+    EXPECT_EQ(load(file), "nnn");
+}
+
+TEST(AtomicFile, GoesOnAfterAnInterruptedCall) {
+    const TemporaryFolder folder;
+    int interruptions = 3;
+    const SystemFault fault(SystemCall::write, [&] { return interruptions-- > 0 ? EINTR : 0; });
+    EXPECT_EQ(fault_of(folder / "x"), "none");
+    EXPECT_EQ(load(folder / "x"), "nnn");
+}
+
+TEST(AtomicFile, PassesByTemporariesOfTheDead) {
+    const TemporaryFolder folder;
+    Names expected{"x"};
+    for (int i = 0; i < 50; ++i) {
+        const std::string stale = ".orrery-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".tmp";
+        test::store(folder / stale.c_str(), to_bytes("stale"));
+        expected.push_back(stale);
+    }
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(fault_of(folder / "x"), "none");
+    EXPECT_EQ(folder.names(), expected);
+}
+
+}  // namespace
+}  // namespace orrery
