@@ -66,13 +66,94 @@ ORRERY_INLINE std::uint32_t append_shadow(const ShadowQueue<typename V::Real>& q
     return size + static_cast<std::uint32_t>(std::popcount(chosen));
 }
 
-/// The vertices of a run, a vector at a time, and what is common to all lights.
-template <class V, class Sample>
+/// A vector of vertices, as the samplers of lights see it.
+template <class V>
+struct LitVertex {
+    std::uint32_t i;  ///< place in the ray queue
+    Vec3<typename V::F> position;
+    Vec3<typename V::F> normal;  ///< unit length, on the side the vertex scatters into
+    typename V::U sphere;        ///< id without side
+    typename V::M inward;        ///< it scatters into the sphere
+    typename V::U slot;
+};
+
+/// What a light sample brings to a vertex.
+template <class V>
+struct Arrival {
+    Vec3<typename V::F> direction;  ///< unit length, towards the light
+    typename V::F inverse_distance;
+    typename V::F factor;  ///< of the light's colour, surface weight excluded
+    typename V::M arrives;
+};
+
+/// Light samples from a point light.
+template <class V, Response response>
+struct PointSampler {
+    const ConnectContext<typename V::Real>& context;
+    const PointLight<typename V::Real>& light;
+    const LobeQueue<typename V::Real>& lobes;
+
+    ORRERY_INLINE Arrival<V> operator()(const RayQueue<typename V::Real>&, const LitVertex<V>& vertex) const {
+        using F = typename V::F;
+        const Vec3<F> to = Vec3<F>{F(light.px), F(light.py), F(light.pz)} - vertex.position;
+        const F distance2 = dot(to, to);
+        const F inverse_distance = F(1) / root(distance2);
+        const Vec3<F> direction = to * inverse_distance;
+        const F pdf = response_pdf<V, response>(context, lobes, vertex.i, vertex.sphere, vertex.normal, direction);
+        return {direction, inverse_distance, pdf * inverse_distance * inverse_distance, pdf > F(0) && distance2 > F(0)};
+    }
+};
+
+/// Light samples from a sphere, density of scattering over density of light sampling; weighed against scattering by the
+/// balance heuristic where the two compete.
+template <class V, Response response, LightStrategy strategy>
+struct AreaSampler {
+    const ConnectContext<typename V::Real>& context;
+    const AreaLight<typename V::Real>& light;
+    const LobeQueue<typename V::Real>& lobes;
+
+    ORRERY_INLINE Arrival<V> operator()(const RayQueue<typename V::Real>& rays, const LitVertex<V>& vertex) const {
+        using F = typename V::F;
+        using U = typename V::U;
+        const Sphere<F> sphere{{F(light.cx), F(light.cy), F(light.cz)}, F(light.radius)};
+        const RandomKey key{context.seed, Dimension::light, context.light};
+        const auto random = random_for<V>(context.slots, rays, vertex.i, key, context.bounce, vertex.slot);
+        // On the light itself its side is known; elsewhere the power of the point tells, as in `chord`.
+        const auto own = words_equal(vertex.sphere, U(light.sphere));
+        const auto within = power_of_point(vertex.position - sphere.centre, sphere.radius) < F(0);
+        const auto inside = (own && vertex.inward) || (!own && within);
+        LightSample<V> sample;
+        if constexpr (strategy == LightStrategy::cone) {
+            sample = sample_light_cone<V>(vertex.position, sphere, random.x, random.y);
+            if (any(inside)) {
+                const auto by_area = sample_light_area<V>(vertex.position, sphere, inside, random.x, random.y);
+                sample.direction = choose(inside, by_area.direction, sample.direction);
+                sample.inverse_distance = choose(inside, by_area.inverse_distance, sample.inverse_distance);
+                sample.inverse_pdf = choose(inside, by_area.inverse_pdf, sample.inverse_pdf);
+                sample.valid = (inside && by_area.valid) || (!inside && sample.valid);
+            }
+        } else {
+            sample = sample_light_area<V>(vertex.position, sphere, inside, random.x, random.y);
+        }
+        const F pdf =
+            response_pdf<V, response>(context, lobes, vertex.i, vertex.sphere, vertex.normal, sample.direction);
+        F ratio = pdf * sample.inverse_pdf;
+        if (context.competing) {
+            ratio = min(ratio, F(0x1p100f));  // beyond that the weight 1 / (1 + ratio) would make inf / inf
+            ratio = ratio / (F(1) + ratio);
+        }
+        return {sample.direction, sample.inverse_distance, ratio, sample.valid && ratio > F(0) && (inside || !own)};
+    }
+};
+
+/// The vertices of a run towards one light, a vector at a time. Returns the number of shadow rays.
+template <class V, class Sampler>
 ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<typename V::Real>& context, Range run,
-                                        const RayQueue<typename V::Real>& rays,
-                                        const ShadowQueue<typename V::Real>& queue, const Sample& sample) {
+                                        const RayQueue<typename V::Real>& rays, const Sampler& sampler,
+                                        const ShadowQueue<typename V::Real>& queue) {
     using F = typename V::F;
     using U = typename V::U;
+    const Vec3<F> colour{F(sampler.light.r), F(sampler.light.g), F(sampler.light.b)};
     std::uint32_t size = 0;
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
@@ -86,12 +167,11 @@ ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<typename V::Real>& 
         const auto sphere = gather_sphere<V>(context.spheres, id);
         const Vec3<F> outward = (p - sphere.centre) * (F(1) / sphere.radius);
         const Vec3<F> normal = choose(inward, outward * F(-1), outward);
-        Vec3<F> direction, radiance;
-        F inverse_distance(0);
-        const auto lit = sample(i, p, normal, id, inward, slot, direction, inverse_distance, radiance) && live;
-        const std::uint32_t chosen = bits(lit);
+        const auto light = sampler(rays, LitVertex<V>{i, p, normal, id, inward, slot});
+        const std::uint32_t chosen = bits(light.arrives && live);
         if (chosen == 0) continue;
-        size = append_shadow<V>(queue, size, p, direction, inverse_distance,
+        const Vec3<F> radiance = colour * light.factor;
+        size = append_shadow<V>(queue, size, p, light.direction, light.inverse_distance,
                                 {throughput.x * radiance.x, throughput.y * radiance.y, throughput.z * radiance.z}, left,
                                 slot, chosen);
     }
@@ -102,69 +182,14 @@ template <class V, Response response>
 std::uint32_t connect_point(const ConnectContext<typename V::Real>& context, const PointLight<typename V::Real>& light,
                             Range run, const RayQueue<typename V::Real>& rays, const LobeQueue<typename V::Real>& lobes,
                             const ShadowQueue<typename V::Real>& queue) {
-    using F = typename V::F;
-    using U = typename V::U;
-    using M = typename V::M;
-    const Vec3<F> at{F(light.px), F(light.py), F(light.pz)};
-    return connect_run<V>(
-        context, run, rays, queue,
-        [&](std::uint32_t i, const Vec3<F>& p, const Vec3<F>& normal, const U& id, const M&, const U&,
-            Vec3<F>& direction, F& inverse_distance, Vec3<F>& radiance) -> M {
-            const Vec3<F> to = at - p;
-            const F distance2 = dot(to, to);
-            inverse_distance = F(1) / root(distance2);
-            direction = to * inverse_distance;
-            const F pdf = response_pdf<V, response>(context, lobes, i, id, normal, direction);
-            radiance = Vec3<F>{F(light.r), F(light.g), F(light.b)} * (pdf * inverse_distance * inverse_distance);
-            return pdf > F(0) && distance2 > F(0);
-        });
+    return connect_run<V>(context, run, rays, PointSampler<V, response>{context, light, lobes}, queue);
 }
 
 template <class V, Response response, LightStrategy strategy>
 std::uint32_t connect_area(const ConnectContext<typename V::Real>& context, const AreaLight<typename V::Real>& light,
                            Range run, const RayQueue<typename V::Real>& rays, const LobeQueue<typename V::Real>& lobes,
                            const ShadowQueue<typename V::Real>& queue) {
-    using F = typename V::F;
-    using U = typename V::U;
-    using M = typename V::M;
-    const Sphere<F> sphere{{F(light.cx), F(light.cy), F(light.cz)}, F(light.radius)};
-    const RandomKey key{context.seed, Dimension::light, context.light};
-    return connect_run<V>(context, run, rays, queue,
-                          [&](std::uint32_t i, const Vec3<F>& p, const Vec3<F>& normal, const U& id, const M& inward,
-                              const U& slot, Vec3<F>& direction, F& inverse_distance, Vec3<F>& radiance) -> M {
-                              const auto random = random_for<V>(context.slots, rays, i, key, context.bounce, slot);
-                              // On the light itself its side is known; elsewhere the power of the point tells, as in
-                              // `chord`.
-                              const auto own = words_equal(id, U(light.sphere));
-                              const auto within = power_of_point(p - sphere.centre, sphere.radius) < F(0);
-                              const auto inside = (own && inward) || (!own && within);
-                              LightSample<V> sample;
-                              if constexpr (strategy == LightStrategy::cone) {
-                                  sample = sample_light_cone<V>(p, sphere, random.x, random.y);
-                                  if (any(inside)) {
-                                      const auto by_area = sample_light_area<V>(p, sphere, inside, random.x, random.y);
-                                      sample.direction = choose(inside, by_area.direction, sample.direction);
-                                      sample.inverse_distance =
-                                          choose(inside, by_area.inverse_distance, sample.inverse_distance);
-                                      sample.inverse_pdf = choose(inside, by_area.inverse_pdf, sample.inverse_pdf);
-                                      sample.valid = (inside && by_area.valid) || (!inside && sample.valid);
-                                  }
-                              } else {
-                                  sample = sample_light_area<V>(p, sphere, inside, random.x, random.y);
-                              }
-                              direction = sample.direction;
-                              inverse_distance = sample.inverse_distance;
-                              const F pdf = response_pdf<V, response>(context, lobes, i, id, normal, direction);
-                              F ratio = pdf * sample.inverse_pdf;
-                              // The balance heuristic's weight 1 / (1 + ratio); a ratio beyond 2^100 would be inf /
-                              // inf.
-                              if (context.competing) {
-                                  ratio = min(ratio, F(0x1p100f));
-                                  ratio = ratio / (F(1) + ratio);
-                              }
-                              radiance = Vec3<F>{F(light.r), F(light.g), F(light.b)} * ratio;
-                              return sample.valid && ratio > F(0) && (inside || !own);
-                          });
+    return connect_run<V>(context, run, rays, AreaSampler<V, response, strategy>{context, light, lobes}, queue);
 }
 
 }  // namespace orrery::kernels

@@ -80,33 +80,44 @@ void flush(Wave& wave) {
     wave.count = 0;
 }
 
+/// Fills slots with the samples of one pixel from `sample` on, as many as fit. Returns the first sample left.
+std::uint32_t fill(Wave& wave, std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+    const Plan& plan = wave.plan;
+    const std::uint32_t strata = plan.strata();
+    const double cell_width = 2 * plan.half_width() / plan.settings().width / strata;
+    const double cell_height = 2 * plan.half_height() / plan.settings().height / strata;
+    const double left = (2.0 * x / plan.settings().width - 1) * plan.half_width();
+    const double top = (1 - 2.0 * y / plan.settings().height) * plan.half_height();
+    const std::uint32_t pixel = y * plan.settings().width + x;
+    const std::uint32_t first = wave.count;
+    const std::uint32_t count = std::min(plan.samples() - sample, wave.storage.slot_count - first);
+    const auto& slots = wave.storage.slots;
+    std::uint32_t cell_x = sample % strata, cell_y = sample / strata % strata;
+    for (std::uint32_t s = first; s < first + count; ++s) {
+        slots.pixel[s] = pixel;
+        slots.sample[s] = sample++;
+        slots.plane_x[s] = static_cast<float>(left + cell_x * cell_width);
+        slots.plane_y[s] = static_cast<float>(top - cell_y * cell_height);
+        if (++cell_x == strata) {
+            cell_x = 0;
+            if (++cell_y == strata) cell_y = 0;  // uniform: the pixel is one cell
+        }
+    }
+    wave.count += count;
+    return sample;
+}
+
 /// All samples of a tile's pixels, a wave at a time. Returns false when interrupted.
 bool render_tile(Wave& wave, const Tile& tile, const std::function<bool()>& interrupted) {
-    const Plan& plan = wave.plan;
-    const std::uint32_t width = plan.settings().width;
-    const std::uint32_t height = plan.settings().height;
-    const std::uint32_t strata = plan.strata();
-    const std::uint32_t samples = plan.samples();
-    const bool stratified = plan.settings().estimator == Estimator::stratified;
-    const double cell_width = 2 * plan.half_width() / width / strata;
-    const double cell_height = 2 * plan.half_height() / height / strata;
-    auto& slots = wave.storage.slots;
+    const std::uint32_t samples = wave.plan.samples();
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
-            const double left = (2.0 * x / width - 1) * plan.half_width();
-            const double top = (1 - 2.0 * y / height) * plan.half_height();
-            std::uint32_t cell_x = 0, cell_y = 0;
-            for (std::uint32_t sample = 0; sample < samples; ++sample) {
+            for (std::uint32_t sample = 0; sample < samples;) {
                 if (wave.count == wave.storage.slot_count) {
                     if (interrupted && interrupted()) return false;
                     flush(wave);
                 }
-                const std::uint32_t s = wave.count++;
-                slots.pixel[s] = y * width + x;
-                slots.sample[s] = sample;
-                slots.plane_x[s] = static_cast<float>(left + cell_x * cell_width);
-                slots.plane_y[s] = static_cast<float>(top - cell_y * cell_height);
-                if (stratified && ++cell_x == strata) cell_x = 0, ++cell_y;
+                sample = fill(wave, x, y, sample);
             }
         }
     }
