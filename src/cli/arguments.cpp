@@ -1,0 +1,219 @@
+#include "cli/arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <sstream>
+
+#include "cli/exit_code.hpp"
+#include "cli/values.hpp"
+#include "cli/version.hpp"
+
+namespace orrery {
+namespace {
+
+constexpr std::uint32_t any = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t most_threads = 1024;
+constexpr std::uint32_t largest_wave = 1u << 20;
+constexpr std::size_t option_column = 38;
+constexpr std::size_t help_column = 62;
+
+/// Lines of at most help_column characters: CLI11 indents the lines of a description but does not make them.
+std::string wrapped(const std::string& text) {
+    std::string lines;
+    std::size_t used = 0;
+    std::istringstream words(text);
+    for (std::string word; words >> word; used += word.size()) {
+        if (used > 0) {
+            const bool fits = used + 1 + word.size() <= help_column;
+            lines += fits ? ' ' : '\n';
+            used = fits ? used + 1 : 0;
+        }
+        lines += word;
+    }
+    return lines;
+}
+
+/// `read` turns the option's text into a value in Arguments; its UsageError gets the option's name in front.
+template <class Read>
+CLI::Option* add(CLI::App& app, const char* name, const std::string& label, const std::string& help, Read read) {
+    const auto named = [name, read](const std::string& text) {
+        try {
+            read(text);
+        } catch (const UsageError& error) {
+            throw CLI::ValidationError(name, error.what());
+        }
+    };
+    return app.add_option_function<std::string>(name, named, wrapped(help))->type_name(label);
+}
+
+template <class Value, std::size_t count>
+void add_choice(CLI::App& app, const char* name, const Words<Value, count>& words, const std::string& help,
+                std::optional<Value>& choice) {
+    add(app, name, alternatives(words), help, [&](const std::string& text) {
+        choice = parse_word(text, words);
+    })->group("Method");
+}
+
+void add_number(CLI::App& app, const char* name, const char* group, const std::string& help,
+                std::optional<std::uint32_t>& number, std::uint32_t low, std::uint32_t high) {
+    add(app, name, "N", help, [&number, low, high](const std::string& text) {
+        number = parse_integer(text, low, high);
+    })->group(group);
+}
+
+void add_scene(CLI::App& app, Arguments& arguments) {
+    add(app, "SCENE", "FILE", "The scene to read, a JSON file",
+        [&](const std::string& text) { arguments.scene = text; })
+        ->required()
+        ->group("Scene");
+}
+
+void add_outputs(CLI::App& app, Arguments& arguments) {
+    add(app, "-o,--output", "FILE",
+        "Image to write: .ppm or .png (8 bit, tone mapped), .pfm or .exr (linear radiance); repeat it for more than "
+        "one "
+        "(default: the scene's output)",
+        [&](const std::string& text) { arguments.outputs.emplace_back(text); })
+        ->trigger_on_parse()
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+        ->group("Image");
+}
+
+void add_image(CLI::App& app, Overrides& overrides) {
+    const std::string scene = " (default: the scene's)";
+    add(app, "--size", "WxH", "Image size in pixels; the camera's view stays as it is" + scene,
+        [&](const std::string& text) { overrides.size = parse_size(text); })
+        ->group("Image");
+    add_number(
+        app, "--spp", "Image",
+        "Samples per pixel; more take longer and leave less noise. Stratified takes the square number below" + scene,
+        overrides.samples, 1, any);
+    add_number(app, "--seed", "Image",
+               "Another seed is another noise; the same one, the same file (default: the scene's, else 0)",
+               overrides.seed, 0, any);
+    add(app, "--tonemap", alternatives(tonemap_words),
+        "How radiance becomes 8 bit: I/(1+I), I/max(I), or I cut off at 1 (default: the scene's, else sigmoid; none "
+        "for "
+        "depth images)",
+        [&](const std::string& text) { overrides.tonemap = parse_word(text, tonemap_words); })
+        ->group("Image");
+}
+
+void add_method(CLI::App& app, Overrides& overrides) {
+    add_choice(app, "--integrator", integrator_words,
+               "Path tracing, Whitted ray tracing, or distances (default: the scene's)", overrides.integrator);
+    add_number(app, "--depth", "Method",
+               "How often light may be scattered between lamp and eye; at most 20 for wrt (default: the scene's)",
+               overrides.depth, 0, any);
+    add_choice(app, "--estimator", estimator_words,
+               "Where in a pixel the samples lie: anywhere, or one in each cell of a grid (default: the scene's, else "
+               "stratified)",
+               overrides.estimator);
+    add_choice(app, "--transport", transport_words,
+               "How paths find area lights: by chance, by aiming at them, or by both, weighted (default: the scene's, "
+               "else mis)",
+               overrides.transport);
+    add_choice(app, "--light-sampling", light_sampling_words,
+               "Aim at a lamp's whole surface, or at the cone it fills (default: the scene's, else cone)",
+               overrides.light_sampling);
+    add_choice(app, "--roulette", switch_words, "End dim paths early, by lot (default: the scene's, else on)",
+               overrides.roulette);
+}
+
+void add_machine(CLI::App& app, Arguments& arguments) {
+    const char* group = "Machine (these change no image beyond rounding)";
+    add(app, "--threads", "N", "How many threads (default: all cores)", [&](const std::string& text) {
+        arguments.threads = parse_integer(text, 1, most_threads);
+    })->group(group);
+    add(app, "--isa", "auto|scalar|sse2|avx2|avx512", "Instruction set (default: auto, the best this machine has)",
+        [&](const std::string& text) { arguments.isa = parse_isa(text); })
+        ->group(group);
+    add(app, "--precision", "float", "Number type to compute in (default: float, the only one there is)",
+        [](const std::string& text) {
+            if (text != "float") throw unexpected(text, "float, the only precision this version computes in");
+        })
+        ->group(group);
+    add(app, "--wave-size", "N", "For experts: samples traced together per thread (default: what fits its cache)",
+        [&](const std::string& text) { arguments.wave_size = parse_integer(text, 1, largest_wave); })
+        ->group(group);
+}
+
+void add_reports(CLI::App& app, Arguments& arguments) {
+    add(app, "--stats", "FILE.json", "Write times, ray counts and the plan as JSON; - is standard output",
+        [&](const std::string& text) { arguments.stats = text; })
+        ->group("Reports");
+}
+
+void add_quiet(CLI::App& app, Arguments& arguments) {
+    app.add_flag("--quiet", arguments.quiet, "Show neither progress nor warnings; errors are always shown")
+        ->group("Reports");
+}
+
+constexpr const char* render_example =
+    "Example: a quick look, then the real thing in two formats\n"
+    "  orrery render scenes/assignment_08.json --size 256x256 --spp 16 -o look.png\n"
+    "  orrery render scenes/assignment_08.json --spp 400 -o image.png -o image.exr\n"
+    "\n"
+    "Standard output names the images written, one on a line. Exit code: 0 written, 1 the work failed,\n"
+    "2 bad usage or a bad scene.";
+
+constexpr const char* info_example =
+    "Prints what render would do with the same options: the settings, the memory, and which parts of the\n"
+    "pipeline run and why.\n"
+    "\n"
+    "Example:\n"
+    "  orrery info scenes/assignment_08.json --transport naive";
+
+Answer failure(const CLI::App& app, const CLI::ParseError& error) {
+    const auto chosen = app.get_subcommands();
+    const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
+    // CLI11 says that a subcommand is required, not which there are.
+    const std::string fault =
+        chosen.empty() && error.get_name() == "RequiredError" ? "expected a command, render or info" : error.what();
+    return {exit_code::misused, "", fmt::format("orrery: error: {}\nTry: orrery{} --help\n", fault, command)};
+}
+
+}  // namespace
+
+std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv) {
+    Arguments arguments;
+    CLI::App app("Renders worlds of spheres: a scene file in, an image out.", "orrery");
+    app.get_formatter()->column_width(option_column);
+    app.set_version_flag("--version", fmt::format("orrery {}", version()), "Print the version");
+    app.set_help_flag("-h,--help", "Print this help");
+    app.require_subcommand(1);
+    app.footer("Help on a command: orrery render --help");
+
+    CLI::App& render = *app.add_subcommand("render", "Render a scene to an image");
+    add_scene(render, arguments);
+    add_outputs(render, arguments);
+    add_image(render, arguments.overrides);
+    add_method(render, arguments.overrides);
+    add_machine(render, arguments);
+    add_reports(render, arguments);
+    add_quiet(render, arguments);
+    render.footer(render_example);
+
+    CLI::App& info = *app.add_subcommand("info", "Show how a scene would be rendered, and why so");
+    add_scene(info, arguments);
+    add_image(info, arguments.overrides);
+    add_method(info, arguments.overrides);
+    add_machine(info, arguments);
+    add_quiet(info, arguments);
+    info.footer(info_example);
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0) return failure(app, error);
+        std::ostringstream output, unused;
+        app.exit(error, output, unused);  // help or version
+        return Answer{exit_code::done, output.str(), ""};
+    }
+    arguments.command = info.parsed() ? Command::info : Command::render;
+    return arguments;
+}
+
+}  // namespace orrery

@@ -1,0 +1,39 @@
+// The command line, read.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "cli/overrides.hpp"
+#include "kernels/isa.hpp"
+
+namespace orrery {
+
+enum class Command { render, info };
+
+struct Arguments {
+    Command command = Command::render;
+    std::filesystem::path scene;
+    Overrides overrides;
+    std::vector<std::filesystem::path> outputs;  ///< empty: where the scene says
+    std::optional<std::string> stats;            ///< a file, or "-" for standard output
+    unsigned threads = 0;                        ///< 0: all cores
+    Isa isa = best_isa();                        ///< supported by this machine
+    std::uint32_t wave_size = 0;                 ///< 0: the default
+    bool quiet = false;                          ///< neither progress nor warnings
+};
+
+/// A command line that is answered with text and nothing else: help, the version, or what is wrong with it.
+struct Answer {
+    int exit_code = 0;
+    std::string output;  ///< for standard output
+    std::string error;   ///< for standard error
+};
+
+std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv);
+
+}  // namespace orrery

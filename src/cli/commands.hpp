@@ -1,0 +1,21 @@
+// The commands of the program. Each returns an exit code; UsageError and other exceptions are for main to report.
+#pragma once
+
+#include <optional>
+
+#include "cli/arguments.hpp"
+#include "scene/scene.hpp"
+
+namespace orrery {
+
+/// `orrery render`: scene -> images.
+int render_command(const Arguments& arguments);
+
+/// `orrery info`: scene -> what render would do, and why.
+int info_command(const Arguments& arguments);
+
+/// The scene with the command line's overrides, every diagnostic of the file printed. Empty where the scene has
+/// errors. Throws UsageError where the overrides do not fit it.
+std::optional<Scene> load_scene(const Arguments& arguments);
+
+}  // namespace orrery

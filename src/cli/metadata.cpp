@@ -1,0 +1,41 @@
+#include "cli/metadata.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/overrides.hpp"
+#include "cli/version.hpp"
+#include "cli/words.hpp"
+
+namespace orrery {
+
+std::string canonical_options(const RenderSettings& s, ImageFormat format) {
+    std::string text = fmt::format("--integrator {} --size {}x{} --spp {}", word_for(integrator_words, s.integrator),
+                                   s.width, s.height, s.samples);
+    const auto add = [&](std::string_view option, auto value) { text += fmt::format(" --{} {}", option, value); };
+    add("estimator", word_for(estimator_words, s.estimator));
+    add("seed", s.seed);
+    if (s.integrator != Integrator::depth) {
+        add("depth", s.depth);
+        add("light-sampling", word_for(light_sampling_words, s.light_sampling));
+    }
+    if (s.integrator == Integrator::path_tracing) {
+        add("transport", word_for(transport_words, s.transport));
+        add("roulette", word_for(switch_words, s.roulette));
+    }
+    if (format == ImageFormat::ppm || format == ImageFormat::png) {
+        add("tonemap", word_for(tonemap_words, tone_mapper(s)));
+    }
+    add("precision", "float");
+    return text;
+}
+
+Metadata image_metadata(const Plan& plan, ImageFormat format) {
+    const RenderSettings& settings = plan.settings();
+    return {{"scene", plan.scene().file.filename().string()},
+            {"seed", std::to_string(settings.seed)},
+            {"samples", std::to_string(plan.samples())},
+            {"options", canonical_options(settings, format)},
+            {"version", fmt::format("orrery {}", version())}};
+}
+
+}  // namespace orrery

@@ -1,0 +1,29 @@
+// Where the images and the statistics go, decided and checked before hours are spent.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/arguments.hpp"
+#include "scene/scene.hpp"
+
+namespace orrery {
+
+struct Outputs {
+    std::vector<std::filesystem::path> images;   ///< at least one, each of a known ending
+    std::optional<std::filesystem::path> stats;  ///< a file
+    bool stats_to_standard_output = false;
+};
+
+/// What the command line names; without an image there, the scene's own. Throws UsageError where there is none, an
+/// ending is unknown, or a file is named twice (as the scene, say). Touches nothing.
+Outputs choose_outputs(const Arguments& arguments, const Scene& scene);
+
+/// Makes sure that all can be written, and makes the folder of the scene's own output where only that folder itself is
+/// missing: a scene that says "../output/x.png" does not ask the user to make `output` first. A folder named on the
+/// command line is more likely misspelt. Throws std::runtime_error.
+void require_writable(const Outputs& outputs, const Scene& scene);
+
+}  // namespace orrery

@@ -1,0 +1,64 @@
+#include "cli/progress.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/standard_streams.hpp"
+
+namespace orrery {
+namespace {
+
+constexpr std::size_t longest_line = 79;
+constexpr std::size_t shortest_bar = 10;
+
+/// One less than the terminal has: in the last column many a terminal begins a new line.
+std::size_t usable_columns() {
+    winsize size = {};
+    if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return longest_line;
+    return std::min<std::size_t>(size.ws_col - 1u, longest_line);
+}
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+    // Beyond a century nobody counts, and the conversion below stays in range.
+    const auto whole = static_cast<std::uint64_t>(std::ceil(std::clamp(seconds, 0.0, 3.2e9)));
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+    return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+std::string progress_line(double fraction, std::uint64_t rays, double seconds, std::size_t columns) {
+    // Rounded down: 100 % is said when all is done.
+    std::string figures = fmt::format("{:3} %", static_cast<int>(fraction * 100));
+    if (seconds > 0) figures += fmt::format("  {:.1f} Mrays/s", static_cast<double>(rays) / seconds / 1e6);
+    if (fraction > 0) figures += fmt::format("  {} left", duration_text(seconds * (1 - fraction) / fraction));
+
+    constexpr std::size_t frame = 4;  // two brackets, two blanks
+    if (columns < figures.size() + frame + shortest_bar) return figures.substr(0, columns);
+    const std::size_t bar = columns - figures.size() - frame;
+    const auto done = static_cast<std::size_t>(fraction * static_cast<double>(bar));
+    return fmt::format("[{}{}]  {}", std::string(done, '#'), std::string(bar - done, '-'), figures);
+}
+
+ProgressBar::ProgressBar(bool wanted) : shows_(wanted && ::isatty(STDERR_FILENO) != 0) {}
+
+void ProgressBar::update(double fraction, std::uint64_t rays) {
+    if (!shows_) return;
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const std::string line = progress_line(fraction, rays, seconds, usable_columns());
+    // Blanks over the rest of a longer line before: every terminal knows blanks and \r, not all know more.
+    print_message(fmt::format("\r{:<{}}", line, drawn_));
+    drawn_ = line.size();
+}
+
+void ProgressBar::clear() {
+    if (drawn_ > 0) print_message(fmt::format("\r{:{}}\r", "", drawn_));
+    drawn_ = 0;
+}
+
+}  // namespace orrery

@@ -1,0 +1,37 @@
+// How far the render is: a line on the terminal that is gone when the work is done.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace orrery {
+
+/// "[######--------]  42 %  86.3 Mrays/s  1:23 left" in at most `columns` characters: the bar takes what the figures
+/// leave. `fraction` in [0, 1], `seconds` since the start.
+std::string progress_line(double fraction, std::uint64_t rays, double seconds, std::size_t columns);
+
+/// "7 s", "1:23" or "4:05:06".
+std::string duration_text(double seconds);
+
+class ProgressBar {
+public:
+    /// Draws nothing where standard error is no terminal, or when it is not `wanted`.
+    explicit ProgressBar(bool wanted);
+    ~ProgressBar() { clear(); }
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+
+    bool shows() const { return shows_; }
+    void update(double fraction, std::uint64_t rays);
+
+private:
+    void clear();
+
+    bool shows_;
+    std::size_t drawn_ = 0;  ///< characters on the terminal's line now
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace orrery

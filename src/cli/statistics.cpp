@@ -1,0 +1,64 @@
+#include "cli/statistics.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "cli/version.hpp"
+#include "cli/words.hpp"
+
+namespace orrery {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json stage_seconds(const RenderStats& stats) {
+    Json seconds = Json::object();
+    for (std::size_t stage = 0; stage < stage_names.size(); ++stage)
+        seconds[stage_names[stage]] = stats.stage_seconds[stage];
+    return seconds;
+}
+
+Json decisions(const Plan& plan) {
+    Json list = Json::array();
+    for (const Decision& decision : plan.decisions())
+        list.push_back({{"part", decision.part}, {"runs", decision.runs}, {"reason", decision.reason}});
+    return list;
+}
+
+}  // namespace
+
+double rays_per_second(const RenderStats& stats) {
+    // The clock may not have moved during a render of one pixel.
+    return stats.seconds > 0 ? static_cast<double>(stats.closest_rays + stats.shadow_rays) / stats.seconds : 0;
+}
+
+std::string statistics_json(const Plan& plan, const RenderStats& stats,
+                            const std::vector<std::filesystem::path>& images) {
+    const RenderSettings& settings = plan.settings();
+    Json json = {
+        {"scene", plan.scene().file.string()},
+        {"images", Json::array()},
+        {"version", version()},
+        {"integrator", word_for(integrator_words, settings.integrator)},
+        {"size", {settings.width, settings.height}},
+        {"samples_per_pixel", stats.samples_per_pixel},
+        {"depth", settings.depth},
+        {"seed", settings.seed},
+        {"isa", isa_name(stats.isa)},
+        {"precision", "float"},
+        {"threads", stats.threads},
+        {"wave_size", stats.wave_size},
+        {"bytes_per_ray", stats.bytes_per_ray},
+        {"queue_bytes_per_thread", stats.queue_bytes},
+        {"seconds", stats.seconds},
+        {"rays", {{"closest", stats.closest_rays}, {"shadow", stats.shadow_rays}}},
+        {"rays_per_second", rays_per_second(stats)},
+        {"stage_seconds", stage_seconds(stats)},
+        {"dropped_samples", stats.dropped_samples},
+        {"plan", decisions(plan)},
+    };
+    for (const auto& image : images) json["images"].push_back(image.string());
+    // A file name need not be UTF-8, JSON must be.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace orrery

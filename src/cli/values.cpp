@@ -1,0 +1,58 @@
+#include "cli/values.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "cli/exit_code.hpp"
+#include "scene/printable.hpp"
+
+namespace orrery {
+namespace {
+
+constexpr std::uint32_t largest_dimension = 65536;
+
+std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t low, std::uint32_t high) {
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = error == std::errc() && end == text.data() + text.size();
+    if (!whole || value < low || value > high) return std::nullopt;
+    return value;
+}
+
+}  // namespace
+
+UsageError unexpected(std::string_view found, std::string_view expected) {
+    return UsageError(fmt::format("found {}, expected {}", in_quotes(found), expected));
+}
+
+std::uint32_t parse_integer(std::string_view text, std::uint32_t low, std::uint32_t high) {
+    if (const auto value = whole_number(text, low, high)) return *value;
+    throw unexpected(text, fmt::format("a whole number from {} to {}", low, high));
+}
+
+ImageSize parse_size(std::string_view text) {
+    const std::size_t cross = text.find('x');
+    if (cross != std::string_view::npos) {
+        const auto width = whole_number(text.substr(0, cross), 1, largest_dimension);
+        const auto height = whole_number(text.substr(cross + 1), 1, largest_dimension);
+        if (width && height) return {*width, *height};
+    }
+    throw unexpected(text, fmt::format("WIDTHxHEIGHT in pixels such as 640x480, each from 1 to {}", largest_dimension));
+}
+
+Isa parse_isa(std::string_view text) {
+    if (text == "auto") return best_isa();
+    const std::optional<Isa> isa = isa_from_name(text);
+    if (isa && isa_supported(*isa)) return *isa;
+    throw unexpected(text, fmt::format("auto or an instruction set this machine supports: {}", supported_isas()));
+}
+
+std::string supported_isas() {
+    std::string names;
+    for (const Isa isa : all_isas)
+        if (isa_supported(isa)) names += (names.empty() ? "" : ", ") + std::string(isa_name(isa));
+    return names;
+}
+
+}  // namespace orrery

@@ -1,0 +1,37 @@
+// Option values: text of the command line -> value, or a message that says what was expected.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "cli/exit_code.hpp"
+#include "cli/overrides.hpp"
+#include "cli/words.hpp"
+#include "kernels/isa.hpp"
+
+namespace orrery {
+
+/// Whole numbers are decimal digits alone: no sign, no blanks, no 0x, nothing after them. Throws UsageError.
+std::uint32_t parse_integer(std::string_view text, std::uint32_t low, std::uint32_t high);
+
+/// "640x480", each 1 to 65536. Throws UsageError.
+ImageSize parse_size(std::string_view text);
+
+/// An instruction set this machine runs; "auto" is the best of them. Throws UsageError naming those it runs.
+Isa parse_isa(std::string_view text);
+
+/// "scalar, sse2, avx2": what this machine runs.
+std::string supported_isas();
+
+/// For whoever throws: "found "x", expected y".
+UsageError unexpected(std::string_view found, std::string_view expected);
+
+/// One of a table's words. Throws UsageError.
+template <class Value, std::size_t count>
+Value parse_word(std::string_view text, const Words<Value, count>& words) {
+    if (const auto value = value_of(words, text)) return *value;
+    throw unexpected(text, alternatives(words));
+}
+
+}  // namespace orrery

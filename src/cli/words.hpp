@@ -1,0 +1,57 @@
+// The words of the command line for the choices of RenderSettings: one table each, for reading and for printing.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "scene/scene.hpp"
+
+namespace orrery {
+
+template <class Value>
+struct Word {
+    std::string_view text;
+    Value value;
+};
+
+template <class Value, std::size_t count>
+using Words = std::array<Word<Value>, count>;
+
+inline constexpr Words<Integrator, 3> integrator_words = {
+    {{"pt", Integrator::path_tracing}, {"wrt", Integrator::whitted}, {"depth", Integrator::depth}}};
+inline constexpr Words<Estimator, 2> estimator_words = {
+    {{"uniform", Estimator::uniform}, {"stratified", Estimator::stratified}}};
+inline constexpr Words<Transport, 3> transport_words = {
+    {{"naive", Transport::naive}, {"nee", Transport::nee}, {"mis", Transport::mis}}};
+inline constexpr Words<LightSampling, 2> light_sampling_words = {
+    {{"area", LightSampling::area}, {"cone", LightSampling::cone}}};
+inline constexpr Words<bool, 2> switch_words = {{{"on", true}, {"off", false}}};
+inline constexpr Words<ToneMap, 3> tonemap_words = {
+    {{"sigmoid", ToneMap::sigmoid}, {"linear", ToneMap::linear}, {"none", ToneMap::none}}};
+
+template <class Value, std::size_t count>
+constexpr std::string_view word_for(const Words<Value, count>& words, Value value) {
+    for (const auto& word : words)
+        if (word.value == value) return word.text;
+    return "?";
+}
+
+template <class Value, std::size_t count>
+constexpr std::optional<Value> value_of(const Words<Value, count>& words, std::string_view text) {
+    for (const auto& word : words)
+        if (word.text == text) return word.value;
+    return std::nullopt;
+}
+
+/// "pt|wrt|depth", as help and messages show a choice.
+template <class Value, std::size_t count>
+std::string alternatives(const Words<Value, count>& words) {
+    std::string text;
+    for (const auto& word : words) text += (text.empty() ? "" : "|") + std::string(word.text);
+    return text;
+}
+
+}  // namespace orrery
