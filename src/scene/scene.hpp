@@ -31,9 +31,9 @@ enum class MaterialKind : std::uint8_t { diffuse, specular, glossy, dielectric, 
 struct Material {
     std::string id;
     MaterialKind kind = MaterialKind::diffuse;
-    glm::dvec3 rho{0};    ///< reflectance per channel in [0, 1]; rhoR of a dielectric
-    glm::dvec3 rho_t{0};  ///< transmittance per channel in [0, 1]; dielectric and translucent only
-    double eta = 1;       ///< index of refraction, inside over outside, > 0; dielectric and translucent only
+    glm::dvec3 rho{0};     ///< reflectance per channel in [0, 1]; rhoR of a dielectric
+    glm::dvec3 rho_t{0};   ///< transmittance per channel in [0, 1]; dielectric and translucent only
+    double eta = 1;        ///< index of refraction, inside over outside, > 0; dielectric and translucent only
     double roughness = 0;  ///< beta, 0 <= beta < 1; > 0 exactly for glossy and translucent
 };
 
@@ -41,9 +41,9 @@ struct Material {
 struct Primitive {
     std::string id;  ///< a label; may repeat
     glm::dvec3 centre{0};
-    double radius = 1;                  ///< > 0
-    std::uint32_t material = 0;         ///< index into Scene::materials
-    std::optional<glm::dvec3> emission; ///< emitted radiance, >= 0 and finite; an emissive primitive is an area light
+    double radius = 1;                   ///< > 0
+    std::uint32_t material = 0;          ///< index into Scene::materials
+    std::optional<glm::dvec3> emission;  ///< emitted radiance, >= 0 and finite; an emissive primitive is an area light
 };
 
 struct PointLight {
@@ -60,10 +60,10 @@ enum class LightSampling : std::uint8_t { area, cone };
 /// The `renderer` object: what to compute, and where the file says the image goes.
 struct RenderSettings {
     Integrator integrator = Integrator::path_tracing;
-    std::uint32_t width = 0;   ///< 1..65536
-    std::uint32_t height = 0;  ///< 1..65536
-    std::uint32_t samples = 1; ///< per pixel, >= 1
-    std::uint32_t depth = 0;   ///< greatest number of scattering events on a path; 0..20 for whitted
+    std::uint32_t width = 0;       ///< 1..65536
+    std::uint32_t height = 0;      ///< 1..65536
+    std::uint32_t samples = 1;     ///< per pixel, >= 1
+    std::uint32_t depth = 0;       ///< greatest number of scattering events on a path; 0..20 for whitted
     std::filesystem::path output;  ///< already resolved against the scene file's folder; may be empty
     Estimator estimator = Estimator::stratified;
     Transport transport = Transport::mis;

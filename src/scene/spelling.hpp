@@ -12,7 +12,8 @@ namespace orrery {
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// Finds nearest words within a budget of work. A file of many faults and many ids costs their product, so that
-/// without a budget a hostile file of a few megabytes would take minutes.
+/// without a budget a hostile file of a few megabytes would take minutes. One fault among a hundred thousand ids is
+/// well within.
 class Spelling {
 public:
     /// The word of `known` nearest to `word`, the first of equals. Empty when `known` is empty or the budget is spent.
@@ -22,7 +23,7 @@ public:
     std::string_view likely(std::string_view word, std::span<const std::string_view> known);
 
 private:
-    std::size_t budget_ = 100'000'000;  ///< in cells of the distance table: some tenths of a second
+    std::size_t budget_ = 100'000'000;  ///< in cells of the distance table: about a second
 };
 
 }  // namespace orrery

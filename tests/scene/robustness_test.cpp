@@ -1,7 +1,7 @@
 // Whatever bytes come: the reader returns, soon, with a scene or with errors, and with messages fit to print.
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -26,13 +26,25 @@ void check(const ReadResult& result, const std::string& what) {
     EXPECT_EQ(result.scene.has_value(), !has_error) << what;
 }
 
-/// Reads and checks; returns the seconds it took. The bound of a few seconds leaves room for sanitizers.
+/// Processor time since construction: what a busy machine makes of it does not fail a test.
+class Stopwatch {
+public:
+    double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
+
+private:
+    std::clock_t start_ = std::clock();
+};
+
+/// Long for the reader (tenths of a second, optimised), short for what would not end; leaves room for sanitizers.
+constexpr double soon = 20;
+
+/// Reads and checks; returns the seconds it took.
 double seconds_for(const std::string& text, const std::string& what) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const ReadResult result = read_scene_text(text, "x.json");
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    const double seconds = stopwatch.seconds();
     check(result, what);
-    return elapsed.count();
+    return seconds;
 }
 
 std::string repeated(std::string_view part, std::size_t times) {
@@ -41,8 +53,6 @@ std::string repeated(std::string_view part, std::size_t times) {
     for (std::size_t i = 0; i < times; ++i) text += part;
     return text;
 }
-
-constexpr double soon = 10;
 
 TEST(Robustness, GarbageIsRefused) {
     std::mt19937 random(1);
@@ -96,12 +106,12 @@ TEST(Robustness, LargeSceneReadsSoon) {
         json["scene"]["primitives"].push_back(
             {{"id", id}, {"type", "geometric"}, {"shape", id}, {"material", "glass"}});
     }
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const ReadResult result = read(json);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    const double seconds = stopwatch.seconds();
     ASSERT_TRUE(result.scene.has_value()) << listing(result);
     EXPECT_EQ(result.scene->primitives.size(), 6u + count);
-    EXPECT_LT(elapsed.count(), soon);
+    EXPECT_LT(seconds, soon);
 }
 
 TEST(Robustness, HugeNumbersAreFaultsNotCrashes) {
