@@ -170,10 +170,8 @@ ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<typename V::Real>& 
         const auto light = sampler(rays, LitVertex<V>{i, p, normal, id, inward, slot});
         const std::uint32_t chosen = bits(light.arrives && live);
         if (chosen == 0) continue;
-        const Vec3<F> radiance = colour * light.factor;
         size = append_shadow<V>(queue, size, p, light.direction, light.inverse_distance,
-                                {throughput.x * radiance.x, throughput.y * radiance.y, throughput.z * radiance.z}, left,
-                                slot, chosen);
+                                throughput * (colour * light.factor), left, slot, chosen);
     }
     return size;
 }

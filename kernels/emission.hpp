@@ -47,9 +47,7 @@ void emission(const SphereTable<typename V::Real>& spheres, const EmissionTable<
         const U id = choose(live && !missed, hit & U(no_sphere), U(0u));
         if (lights.has_background && any(missed)) {
             const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
-            add_radiance<V>(slots, load<U>(rays.slot + i),
-                            {throughput.x * background.x, throughput.y * background.y, throughput.z * background.z},
-                            bits(missed));
+            add_radiance<V>(slots, load<U>(rays.slot + i), throughput * background, bits(missed));
         }
         if (!lights.has_emitters) continue;
         const U surface = lookup<U>(spheres.surface, id, spheres.count);
@@ -67,8 +65,7 @@ void emission(const SphereTable<typename V::Real>& spheres, const EmissionTable<
         const U light = lookup<U>(spheres.light, id, spheres.count);
         const auto radiance = lookup3<V>(lights.r, lights.g, lights.b, light, lights.count);
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i) * weight;
-        add_radiance<V>(slots, load<U>(rays.slot + i),
-                        {throughput.x * radiance.x, throughput.y * radiance.y, throughput.z * radiance.z}, bits(emits));
+        add_radiance<V>(slots, load<U>(rays.slot + i), throughput * radiance, bits(emits));
     }
 }
 

@@ -1,136 +1,15 @@
 // The dozen operations the kernels use, over xsimd's batches and over plain scalars alike.
 //
-// A kernel is a template on a `Lanes` type V and says V::F, V::U, V::M for a vector of numbers, of unsigned words of
-// the same width, and of truth values. With `ScalarLanes` the same source is ordinary scalar code.
-//
-// What xsimd 8.1 leaves open and this layer closes: fma on AVX-512 (xsimd multiplies and adds, which rounds twice),
-// compress, a mask's bits, comparison of unsigned words as a mask of numbers. SSE2 has no fused multiply-add: there fma
-// rounds twice, which is why SSE2 images equal the others in expectation only.
+// What xsimd 8.1 leaves open and this layer closes: a fused multiply-add on AVX-512 (xsimd multiplies and adds, which
+// rounds twice), compress (compress.hpp), a mask's bits, comparison of unsigned words as a mask of numbers. SSE2 has no
+// fused multiply-add: there it rounds twice, which is why SSE2 images equal the others in expectation only.
 #pragma once
 
 #include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <type_traits>
-#include <xsimd/xsimd.hpp>
 
-#include "kernels/always_inline.hpp"
+#include "kernels/lane_memory.hpp"
 
 namespace orrery::kernels {
-
-/// The storage word as wide as a number: ids, slots and random bits live in these.
-template <class Real>
-using WordOf = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
-
-template <class ArchT, class RealT>
-struct SimdLanes {
-    using Arch = ArchT;
-    using Real = RealT;
-    using Word = WordOf<Real>;
-    using F = xsimd::batch<Real, Arch>;
-    using U = xsimd::batch<Word, Arch>;
-    using M = xsimd::batch_bool<Real, Arch>;
-    static constexpr std::uint32_t count = static_cast<std::uint32_t>(F::size);
-};
-
-template <class RealT>
-struct ScalarLanes {
-    using Real = RealT;
-    using Word = WordOf<Real>;
-    using F = Real;
-    using U = Word;
-    using M = bool;
-    static constexpr std::uint32_t count = 1;
-};
-
-// --- memory -------------------------------------------------------------------------------------------------------
-
-template <class T, class Element>
-ORRERY_INLINE T load(const Element* from) {
-    if constexpr (std::is_arithmetic_v<T>) {
-        return *from;
-    } else {
-        return T::load_unaligned(from);
-    }
-}
-
-template <class Element, class T>
-ORRERY_INLINE void store(Element* to, const T& value) {
-    if constexpr (std::is_arithmetic_v<T>) {
-        *to = value;
-    } else {
-        value.store_unaligned(to);
-    }
-}
-
-/// table[index] per lane. Every index must be valid, those of dead lanes included.
-template <class T, class Element, class U>
-ORRERY_INLINE T gather(const Element* table, const U& index) {
-    if constexpr (std::is_arithmetic_v<T>) {
-        return table[index];
-#if defined(__AVX512F__)
-    } else if constexpr (T::size == 16 && sizeof(Element) == 4) {
-        const __m512i i = index;
-        if constexpr (std::is_floating_point_v<Element>) {
-            return T(_mm512_i32gather_ps(i, table, 4));
-        } else {
-            return T(_mm512_i32gather_epi32(i, table, 4));
-        }
-#endif
-#if defined(__AVX2__)
-    } else if constexpr (T::size == 8 && sizeof(Element) == 4) {
-        const __m256i i = index;
-        if constexpr (std::is_floating_point_v<Element>) {
-            return T(_mm256_i32gather_ps(table, i, 4));
-        } else {
-            return T(_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), i, 4));
-        }
-#endif
-    } else {
-        alignas(64) typename U::value_type at[U::size];
-        alignas(64) Element out[U::size];
-        index.store_aligned(at);
-        for (std::size_t i = 0; i < U::size; ++i) out[i] = table[at[i]];
-        return T::load_aligned(out);
-    }
-}
-
-/// As gather, for a table of `size` entries that is readable up to `widest` ones: a table no longer than a vector is
-/// permuted in register, one operation where a gather is a load per lane.
-template <class T, class Element, class U>
-ORRERY_INLINE T lookup(const Element* table, const U& index, std::uint32_t size) {
-    static_cast<void>(size);
-#if defined(__AVX512F__)
-    if constexpr (!std::is_arithmetic_v<T> && sizeof(Element) == 4) {
-        if constexpr (T::size == 16) {
-            if (size <= 16) {
-                const __m512i i = index;
-                if constexpr (std::is_floating_point_v<Element>) {
-                    return T(_mm512_permutexvar_ps(i, _mm512_loadu_ps(table)));
-                } else {
-                    return T(_mm512_permutexvar_epi32(i, _mm512_loadu_si512(table)));
-                }
-            }
-        }
-    }
-#endif
-#if defined(__AVX2__)
-    if constexpr (!std::is_arithmetic_v<T> && sizeof(Element) == 4) {
-        if constexpr (T::size == 8) {
-            if (size <= 8) {
-                const __m256i i = index;
-                if constexpr (std::is_floating_point_v<Element>) {
-                    return T(_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), i));
-                } else {
-                    const auto* words = reinterpret_cast<const __m256i*>(table);
-                    return T(_mm256_permutevar8x32_epi32(_mm256_loadu_si256(words), i));
-                }
-            }
-        }
-    }
-#endif
-    return gather<T>(table, index);
-}
 
 // --- masks --------------------------------------------------------------------------------------------------------
 

@@ -98,29 +98,17 @@ template <class V, Scattering kind>
 void scatter(const ScatterContext<typename V::Real>& context, Range run, const RayQueue<typename V::Real>& rays,
              const HitQueue<typename V::Real>& hits, const LobeQueue<typename V::Real>& lobes) {
     using F = typename V::F;
-    using U = typename V::U;
-    const U zero(0u);
+    const Vec3<F> none{F(0), F(0), F(0)};
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
-        const auto in_run = first_lanes<V>(run.count - n);
-        // An unsorted run holds its misses too; they leave with no throughput.
-        const U met = load<U>(hits.id + i);
-        const auto live = in_run && !words_equal(met, U(no_sphere));
-        const U hit = choose(live, met, zero);
-        const U slot = choose(in_run, load<U>(rays.slot + i), zero);
-        const auto o = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
-        const auto d = load3<V>(rays.dx + i, rays.dy + i, rays.dz + i);
-        const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
+        const auto in = arriving<V>(context.spheres, rays, hits, i, run.count - n);
+        const auto out = scatter_at<V, kind>(context, in.vertex, in.direction, rays, i, in.slot);
 
-        const auto vertex = vertex_at<V>(context.spheres, o, d, load<F>(hits.t + i), hit);
-        const auto out = scatter_at<V, kind>(context, vertex, d, rays, i, slot);
-
-        store3<V>(rays.ox + i, rays.oy + i, rays.oz + i, vertex.position);
+        store3<V>(rays.ox + i, rays.oy + i, rays.oz + i, in.vertex.position);
         store3<V>(rays.dx + i, rays.dy + i, rays.dz + i, out.direction);
-        store3<V>(rays.tr + i, rays.tg + i, rays.tb + i,
-                  {choose(live, throughput.x * out.weight.x, F(0)), choose(live, throughput.y * out.weight.y, F(0)),
-                   choose(live, throughput.z * out.weight.z, F(0))});
-        store(rays.left + i, vertex.sphere | out.side);
+        // Misses leave with no throughput.
+        store3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(in.live, in.throughput * out.weight, none));
+        store(rays.left + i, in.vertex.sphere | out.side);
         if (rays.pdf != nullptr) store(rays.pdf + i, out.pdf);
         if constexpr (kind == Scattering::dielectric || kind == Scattering::translucent) {
             if (rays.eta_scale != nullptr) store(rays.eta_scale + i, load<F>(rays.eta_scale + i) * out.eta_scale);

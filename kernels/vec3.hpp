@@ -22,6 +22,11 @@ template <class F>
 ORRERY_INLINE Vec3<F> operator*(const Vec3<F>& a, const F& s) {
     return {a.x * s, a.y * s, a.z * s};
 }
+/// Component by component: throughput times colour.
+template <class F>
+ORRERY_INLINE Vec3<F> operator*(const Vec3<F>& a, const Vec3<F>& b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
 /// a + s d, one rounding per component.
 template <class F>
 ORRERY_INLINE Vec3<F> along(const Vec3<F>& a, const F& s, const Vec3<F>& d) {

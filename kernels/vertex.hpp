@@ -41,6 +41,32 @@ ORRERY_INLINE Vertex<V> vertex_at(const SphereTable<typename V::Real>& spheres, 
             lookup<U>(spheres.surface, id, spheres.count) & U(surface_material_mask)};
 }
 
+/// A vector of a run's rays where they arrive.
+template <class V>
+struct Arriving {
+    typename V::M live;  ///< in the run, and met something: an unsorted run holds its misses too
+    typename V::U slot;  ///< 0 outside the run
+    Vec3<typename V::F> direction;
+    Vec3<typename V::F> throughput;
+    Vertex<V> vertex;
+};
+
+/// Rays i.. of a queue, of which the first `count` lanes belong to the run.
+template <class V>
+ORRERY_INLINE Arriving<V> arriving(const SphereTable<typename V::Real>& spheres, const RayQueue<typename V::Real>& rays,
+                                   const HitQueue<typename V::Real>& hits, std::uint32_t i, std::uint32_t count) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const auto in_run = first_lanes<V>(count);
+    const U met = load<U>(hits.id + i);
+    const auto live = in_run && !words_equal(met, U(no_sphere));
+    const auto direction = load3<V>(rays.dx + i, rays.dy + i, rays.dz + i);
+    return {live, choose(in_run, load<U>(rays.slot + i), U(0u)), direction,
+            load3<V>(rays.tr + i, rays.tg + i, rays.tb + i),
+            vertex_at<V>(spheres, load3<V>(rays.ox + i, rays.oy + i, rays.oz + i), direction, load<F>(hits.t + i),
+                         choose(live, met, U(0u)))};
+}
+
 /// The vertex number randomness is keyed with: the bounce of a path, or the node of the slot's Whitted ray.
 template <class V>
 ORRERY_INLINE typename V::U vertex_number(const SlotTable<typename V::Real>& slots, std::uint32_t bounce,

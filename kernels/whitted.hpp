@@ -40,35 +40,28 @@ void branch(const ScatterContext<typename V::Real>& context, Range run, const Ra
     const U zero(0u);
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
-        const auto in_run = first_lanes<V>(run.count - n);
-        const U met = load<U>(hits.id + i);
-        const auto live = in_run && !words_equal(met, U(no_sphere));
-        const U hit = choose(live, met, zero);
-        const auto d = load3<V>(rays.dx + i, rays.dy + i, rays.dz + i);
-        const auto vertex =
-            vertex_at<V>(context.spheres, load3<V>(rays.ox + i, rays.oy + i, rays.oz + i), d, load<F>(hits.t + i), hit);
+        const auto in = arriving<V>(context.spheres, rays, hits, i, run.count - n);
+        const auto& vertex = in.vertex;
         const auto& materials = context.materials;
         const F eta = lookup<F>(materials.eta, vertex.material, materials.count);
         const auto at = interface_at<V>(vertex.cosine, choose(words_equal(vertex.side, zero), eta, F(1) / eta));
-        const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
         const auto rho = reflectance_of<V>(materials, vertex.material) * at.reflectance;
         const auto tau =
             lookup3<V>(materials.tau_r, materials.tau_g, materials.tau_b, vertex.material, materials.count) *
             ((F(1) - at.reflectance) * at.inverse_eta * at.inverse_eta);
         const auto weigh = [&](const Vec3<F>& w) {
-            const Vec3<F> out{throughput.x * w.x, throughput.y * w.y, throughput.z * w.z};
-            const auto keep = live && max(out.x, max(out.y, out.z)) >= F(branch_cut<Real>);
+            const Vec3<F> out = in.throughput * w;
+            const auto keep = in.live && max(out.x, max(out.y, out.z)) >= F(branch_cut<Real>);
             return choose(keep, out, Vec3<F>{F(0), F(0), F(0)});
         };
         const Vec3<F> transmitted = weigh(tau);
         const Vec3<F> mirrored = weigh(rho);
         const auto continues = max(transmitted.x, max(transmitted.y, transmitted.z)) > F(0);
         const auto postponed = continues && max(mirrored.x, max(mirrored.y, mirrored.z)) > F(0);
-        const Vec3<F> mirror = unit(reflected(d, vertex.normal, vertex.cosine));
-        const Vec3<F> through = refracted<V>(d, vertex.normal, vertex.cosine, at);
+        const Vec3<F> mirror = unit(reflected(in.direction, vertex.normal, vertex.cosine));
+        const Vec3<F> through = refracted<V>(in.direction, vertex.normal, vertex.cosine, at);
         const U mirror_left = vertex.sphere | vertex.side;
-        const U slot = choose(in_run, load<U>(rays.slot + i), zero);
-        const U node = gather<U>(context.slots.node, slot) << 1;
+        const U node = gather<U>(context.slots.node, in.slot) << 1;
 
         store3<V>(rays.ox + i, rays.oy + i, rays.oz + i, vertex.position);
         store3<V>(rays.dx + i, rays.dy + i, rays.dz + i, choose(continues, through, mirror));
@@ -77,13 +70,13 @@ void branch(const ScatterContext<typename V::Real>& context, Range run, const Ra
 
         alignas(64) Word slot_of[V::count], node_of[V::count], left_of[V::count];
         alignas(64) Real numbers[9][V::count];
-        store(slot_of, slot);
+        store(slot_of, in.slot);
         store(node_of, node);
         store(left_of, mirror_left);
         store3<V>(numbers[0], numbers[1], numbers[2], vertex.position);
         store3<V>(numbers[3], numbers[4], numbers[5], mirror);
         store3<V>(numbers[6], numbers[7], numbers[8], mirrored);
-        for (std::uint32_t left = bits(live); left != 0; left &= left - 1) {
+        for (std::uint32_t left = bits(in.live); left != 0; left &= left - 1) {
             const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
             context.slots.node[slot_of[lane]] = node_of[lane] + (bits(continues) >> lane & 1u);
         }

@@ -1,0 +1,95 @@
+// Vectors from and to memory, over xsimd's batches and over plain scalars alike.
+#pragma once
+
+#include "kernels/lane_types.hpp"
+
+namespace orrery::kernels {
+
+template <class T, class Element>
+ORRERY_INLINE T load(const Element* from) {
+    if constexpr (std::is_arithmetic_v<T>) {
+        return *from;
+    } else {
+        return T::load_unaligned(from);
+    }
+}
+
+template <class Element, class T>
+ORRERY_INLINE void store(Element* to, const T& value) {
+    if constexpr (std::is_arithmetic_v<T>) {
+        *to = value;
+    } else {
+        value.store_unaligned(to);
+    }
+}
+
+/// table[index] per lane. Every index must be valid, those of dead lanes included.
+template <class T, class Element, class U>
+ORRERY_INLINE T gather(const Element* table, const U& index) {
+    if constexpr (std::is_arithmetic_v<T>) {
+        return table[index];
+#if defined(__AVX512F__)
+    } else if constexpr (T::size == 16 && sizeof(Element) == 4) {
+        const __m512i i = index;
+        if constexpr (std::is_floating_point_v<Element>) {
+            return T(_mm512_i32gather_ps(i, table, 4));
+        } else {
+            return T(_mm512_i32gather_epi32(i, table, 4));
+        }
+#endif
+#if defined(__AVX2__)
+    } else if constexpr (T::size == 8 && sizeof(Element) == 4) {
+        const __m256i i = index;
+        if constexpr (std::is_floating_point_v<Element>) {
+            return T(_mm256_i32gather_ps(table, i, 4));
+        } else {
+            return T(_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), i, 4));
+        }
+#endif
+    } else {
+        alignas(64) typename U::value_type at[U::size];
+        alignas(64) Element out[U::size];
+        index.store_aligned(at);
+        for (std::size_t i = 0; i < U::size; ++i) out[i] = table[at[i]];
+        return T::load_aligned(out);
+    }
+}
+
+/// As gather, for a table of `size` entries that is readable up to `widest` ones: a table no longer than a vector is
+/// permuted in register, one operation where a gather is a load per lane.
+template <class T, class Element, class U>
+ORRERY_INLINE T lookup(const Element* table, const U& index, std::uint32_t size) {
+    static_cast<void>(size);
+#if defined(__AVX512F__)
+    if constexpr (!std::is_arithmetic_v<T> && sizeof(Element) == 4) {
+        if constexpr (T::size == 16) {
+            if (size <= 16) {
+                const __m512i i = index;
+                if constexpr (std::is_floating_point_v<Element>) {
+                    return T(_mm512_permutexvar_ps(i, _mm512_loadu_ps(table)));
+                } else {
+                    return T(_mm512_permutexvar_epi32(i, _mm512_loadu_si512(table)));
+                }
+            }
+        }
+    }
+#endif
+#if defined(__AVX2__)
+    if constexpr (!std::is_arithmetic_v<T> && sizeof(Element) == 4) {
+        if constexpr (T::size == 8) {
+            if (size <= 8) {
+                const __m256i i = index;
+                if constexpr (std::is_floating_point_v<Element>) {
+                    return T(_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), i));
+                } else {
+                    const auto* words = reinterpret_cast<const __m256i*>(table);
+                    return T(_mm256_permutevar8x32_epi32(_mm256_loadu_si256(words), i));
+                }
+            }
+        }
+    }
+#endif
+    return gather<T>(table, index);
+}
+
+}  // namespace orrery::kernels

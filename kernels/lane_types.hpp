@@ -1,0 +1,40 @@
+// Which vector types a kernel works on.
+//
+// A kernel is a template on a `Lanes` type V and says V::F, V::U, V::M for a vector of numbers, of unsigned words of
+// the same width, and of truth values. With `ScalarLanes` the same source is ordinary scalar code.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+#include <xsimd/xsimd.hpp>
+
+#include "kernels/always_inline.hpp"
+
+namespace orrery::kernels {
+
+/// The storage word as wide as a number: ids, slots and random bits live in these.
+template <class Real>
+using WordOf = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
+
+template <class ArchT, class RealT>
+struct SimdLanes {
+    using Arch = ArchT;
+    using Real = RealT;
+    using Word = WordOf<Real>;
+    using F = xsimd::batch<Real, Arch>;
+    using U = xsimd::batch<Word, Arch>;
+    using M = xsimd::batch_bool<Real, Arch>;
+    static constexpr std::uint32_t count = static_cast<std::uint32_t>(F::size);
+};
+
+template <class RealT>
+struct ScalarLanes {
+    using Real = RealT;
+    using Word = WordOf<Real>;
+    using F = Real;
+    using U = Word;
+    using M = bool;
+    static constexpr std::uint32_t count = 1;
+};
+
+}  // namespace orrery::kernels
