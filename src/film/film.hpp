@@ -39,16 +39,18 @@ public:
     /// Returns false when it was dropped.
     bool add(std::size_t pixel, float r, float g, float b) {
         assert(pixel < pixels_.size());
-        // One test for three channels: in double the sum of three floats cannot overflow, so it is finite exactly
-        // when all three are (inf - inf is NaN, which is not finite either).
-        const double dr = r, dg = g, db = b;
-        if (!std::isfinite(dr + dg + db)) return false;
-        Pixel& sum = pixels_[pixel];
-        sum.r += dr;
-        sum.g += dg;
-        sum.b += db;
-        ++sum.samples;
-        return true;
+        return add_to(pixels_[pixel], r, g, b);
+    }
+
+    /// Adds `count` samples to a pixel, in order: r, g, b and one unused number each. Returns how many were dropped.
+    std::uint32_t add(std::size_t pixel, const float* rgbx, std::uint32_t count) {
+        assert(pixel < pixels_.size());
+        Pixel sum = pixels_[pixel];  // in registers: through memory each sample would wait for the one before
+        std::uint32_t dropped = 0;
+        for (const float* const end = rgbx + std::size_t{4} * count; rgbx != end; rgbx += 4)
+            dropped += add_to(sum, rgbx[0], rgbx[1], rgbx[2]) ? 0u : 1u;
+        pixels_[pixel] = sum;
+        return dropped;
     }
 
     /// How many samples got into a pixel.
@@ -62,6 +64,18 @@ private:
         double r = 0, g = 0, b = 0;
         std::uint64_t samples = 0;
     };
+
+    static bool add_to(Pixel& sum, float r, float g, float b) {
+        // One test for three channels: in double the sum of three floats cannot overflow, so it is finite exactly
+        // when all three are (inf - inf is NaN, which is not finite either).
+        const double dr = r, dg = g, db = b;
+        if (!std::isfinite(dr + dg + db)) return false;
+        sum.r += dr;
+        sum.g += dg;
+        sum.b += db;
+        ++sum.samples;
+        return true;
+    }
     std::uint32_t width_, height_;
     std::vector<Pixel> pixels_;
 };

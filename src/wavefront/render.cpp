@@ -73,9 +73,11 @@ void flush(Wave& wave) {
     if (wave.count == 0) return;
     trace(wave);
     const auto& slots = wave.storage.slots;
-    for (std::uint32_t s = 0; s < wave.count; ++s) {
-        const float* const rgb = slots.radiance + std::size_t{4} * s;
-        if (!wave.film.add(slots.pixel[s], rgb[0], rgb[1], rgb[2])) ++wave.counters.dropped_samples;
+    for (std::uint32_t s = 0; s < wave.count;) {
+        std::uint32_t end = s + 1;
+        while (end < wave.count && slots.pixel[end] == slots.pixel[s]) ++end;
+        wave.counters.dropped_samples += wave.film.add(slots.pixel[s], slots.radiance + std::size_t{4} * s, end - s);
+        s = end;
     }
     wave.count = 0;
 }
@@ -92,15 +94,18 @@ std::uint32_t fill(Wave& wave, std::uint32_t x, std::uint32_t y, std::uint32_t s
     const std::uint32_t first = wave.count;
     const std::uint32_t count = std::min(plan.samples() - sample, wave.storage.slot_count - first);
     const auto& slots = wave.storage.slots;
-    std::uint32_t cell_x = sample % strata, cell_y = sample / strata % strata;
-    for (std::uint32_t s = first; s < first + count; ++s) {
-        slots.pixel[s] = pixel;
-        slots.sample[s] = sample++;
-        slots.plane_x[s] = static_cast<float>(left + cell_x * cell_width);
-        slots.plane_y[s] = static_cast<float>(top - cell_y * cell_height);
-        if (++cell_x == strata) {
-            cell_x = 0;
-            if (++cell_y == strata) cell_y = 0;  // uniform: the pixel is one cell
+    const std::uint32_t end = first + count;
+    // A row of cells at a time, so that the inner loop is plain; to uniform samples the pixel is one cell.
+    const std::uint32_t row = strata > 1 ? strata : plan.samples();
+    const double step = strata > 1 ? cell_width : 0;
+    for (std::uint32_t s = first; s < end;) {
+        std::uint32_t cell_x = sample % row;
+        const auto y_of_row = static_cast<float>(top - sample / row * cell_height);
+        for (; s < end && cell_x < row; ++s, ++cell_x) {
+            slots.pixel[s] = pixel;
+            slots.sample[s] = sample++;
+            slots.plane_x[s] = static_cast<float>(left + cell_x * step);
+            slots.plane_y[s] = y_of_row;
         }
     }
     wave.count += count;
