@@ -34,11 +34,6 @@ References find_references(const Json& root) {
         insert_text(ids.materials, member(primitive, "material"));
         insert_text(ids.lights, member(primitive, "light"));
     }
-    for (const Json& light : members(root, "lights")) {
-        std::set<std::string_view> id;
-        insert_text(id, member(light, "id"));
-        if (!id.empty() && ids.lights.contains(*id.begin())) insert_text(ids.shapes, member(light, "shape"));
-    }
     return ids;
 }
 

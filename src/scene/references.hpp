@@ -14,8 +14,9 @@ struct References {
     std::set<std::string_view> cameras, materials, shapes, lights;
 };
 
-/// Collects the ids in silence, skipping over whatever is malformed: the composition's reader reports that.
-/// It runs before the registries are read because it decides the severity of their faults.
+/// Collects the ids in silence (the shape of an area light is among them through the primitive that carries it),
+/// skipping over whatever is malformed: the composition's reader reports that. It runs before the registries are read
+/// because it decides the severity of their faults.
 References find_references(const Json& root);
 
 }  // namespace orrery

@@ -89,6 +89,16 @@ TEST(Faults, UnlistedEmissivePrimitiveStillEmits) {
     EXPECT_EQ(result.scene->primitives.at(5).emission, glm::dvec3(30, 20, 10));
 }
 
+TEST(Faults, LightThatOnlyAPrimitiveNamesIsUsed) {
+    Json json = world();
+    json["scene"]["lights"] = Json::array();
+    json["lights"][1]["power"] = {-1, 0, 0};
+    const ReadResult result = read(json);
+    ASSERT_EQ(result.diagnostics.size(), 1u) << listing(result);
+    EXPECT_EQ(result.diagnostics[0].where, "/lights/1/power/0");
+    EXPECT_EQ(result.diagnostics[0].severity, Severity::error);
+}
+
 TEST(Faults, FirstOfCoincidentSpheresWins) {
     Json json = world();
     json["shapes"][2]["centre"] = {2, -0.0, 0};  // -0 is the same place as 0
