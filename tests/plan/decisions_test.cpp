@@ -1,0 +1,112 @@
+// The plan in words must say what the plan in bits does.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "plan/worlds.hpp"
+
+namespace orrery::test {
+namespace {
+
+using enum MaterialKind;
+
+const Decision& decision(const std::vector<Decision>& all, const std::string& part) {
+    const auto found = std::ranges::find(all, part, &Decision::part);
+    if (found == all.end()) throw std::logic_error("no decision on " + part);
+    return *found;
+}
+
+std::vector<Scene> worlds() {
+    std::vector<Scene> all = {empty_world(), world({diffuse}), world({glossy, glossy}), world({dielectric}),
+                              world({diffuse, specular, glossy, dielectric, translucent})};
+    for (std::size_t i = 0, plain = all.size(); i < plain; ++i) {
+        all.push_back(all[i]);
+        add_area_light(all.back());
+        add_point_light(all.back());
+        all.back().background = dvec3{1};
+        all.back().camera.aperture = 0.1;
+    }
+    return all;
+}
+
+template <class Visit>
+void for_each_plan(const Visit& visit) {
+    for (const Scene& plain : worlds()) {
+        for (const Integrator integrator : {Integrator::path_tracing, Integrator::whitted, Integrator::depth}) {
+            for (const Transport transport : {Transport::naive, Transport::nee, Transport::mis}) {
+                for (const bool roulette : {false, true}) {
+                    Scene scene = plain;
+                    scene.settings.integrator = integrator;
+                    scene.settings.transport = transport;
+                    scene.settings.roulette = roulette;
+                    visit(Plan(scene));
+                }
+            }
+        }
+    }
+}
+
+TEST(Decisions, NameEachPartOnceAndGiveAReason) {
+    for_each_plan([](const Plan& plan) {
+        std::set<std::string> parts;
+        for (const Decision& d : plan.decisions()) {
+            EXPECT_FALSE(d.part.empty());
+            EXPECT_FALSE(d.reason.empty()) << d.part;
+            EXPECT_TRUE(parts.insert(d.part).second) << d.part << " twice";
+        }
+    });
+}
+
+TEST(Decisions, SayWhatTheNeedsSay) {
+    for_each_plan([](const Plan& plan) {
+        const Needs& needs = plan.needs();
+        const auto all = plan.decisions();
+        EXPECT_TRUE(decision(all, "intersect: linear").runs);
+        EXPECT_EQ(decision(all, "generate: lens").runs, needs.lens);
+        if (needs.integrator == Integrator::depth) {
+            EXPECT_FALSE(decision(all, "shade, shadow, roulette").runs);
+            return;
+        }
+        constexpr const char* kinds[] = {"diffuse", "specular", "glossy", "dielectric", "translucent"};
+        for (std::uint32_t k = 0; k < 5; ++k)
+            EXPECT_EQ(decision(all, std::string("shade: ") + kinds[k]).runs, (needs.scattering >> k & 1u) != 0);
+        EXPECT_EQ(decision(all, "shade: sort").runs, needs.sort);
+        EXPECT_EQ(decision(all, "shade: emission").runs, needs.emitters);
+        EXPECT_EQ(decision(all, "shade: background").runs, needs.background);
+        EXPECT_EQ(decision(all, "shadow: point lights").runs, needs.connect_point != 0);
+        EXPECT_EQ(decision(all, "shadow: area lights").runs, needs.connect_area != 0);
+        EXPECT_EQ(decision(all, "roulette: play").runs, needs.roulette);
+        EXPECT_EQ(decision(all, "branches").runs, needs.branches);
+    });
+}
+
+TEST(Decisions, CountWhatTheySpeakOf) {
+    Scene scene = world({diffuse, glossy});
+    add_area_light(scene);
+    add_area_light(scene);
+    add_point_light(scene);
+    const auto all = Plan(scene).decisions();
+    EXPECT_EQ(decision(all, "intersect: linear").reason, "4 spheres");
+    EXPECT_EQ(decision(all, "shade: emission").reason, "2 emissive spheres");
+    EXPECT_EQ(decision(all, "shadow: point lights").reason, "1 of them, from diffuse, glossy surfaces");
+    EXPECT_EQ(decision(all, "shadow: area lights").reason,
+              "2 of them, from diffuse, glossy surfaces, weighed against scattering");
+}
+
+TEST(Decisions, TellWhyAreaLightsAreNotSampled) {
+    const auto reason = [](const Scene& scene) {
+        return decision(Plan(scene).decisions(), "shadow: area lights").reason;
+    };
+    Scene scene = world({diffuse});
+    EXPECT_EQ(reason(scene), "there is none");
+    add_area_light(scene);
+    scene.settings.transport = Transport::naive;
+    EXPECT_EQ(reason(scene), "naive transport finds them by scattering");
+    Scene shiny = world({specular});
+    add(shiny, specular).emission = dvec3{1};
+    EXPECT_EQ(reason(shiny), "no surface samples them");
+}
+
+}  // namespace
+}  // namespace orrery::test

@@ -1,0 +1,186 @@
+// Needs: what a scene does not use is not run.
+#include <gtest/gtest.h>
+
+#include "plan/worlds.hpp"
+
+namespace orrery::test {
+namespace {
+
+using kernels::Scattering;
+using enum MaterialKind;
+
+constexpr std::array<Scattering, 5> all_ways = {Scattering::diffuse, Scattering::specular, Scattering::glossy,
+                                                Scattering::dielectric, Scattering::translucent};
+
+TEST(Needs, NothingOfAnEmptyScene) {
+    for (const Integrator integrator : {Integrator::path_tracing, Integrator::whitted, Integrator::depth}) {
+        Scene scene = empty_world();
+        scene.settings.integrator = integrator;
+        const Needs needs = needs_of(scene);
+        EXPECT_EQ(needs.integrator, integrator);
+        EXPECT_EQ(needs.scattering, 0u);
+        EXPECT_FALSE(needs.lens || needs.sort || needs.emitters || needs.background || needs.competing);
+        EXPECT_FALSE(needs.scattering_pdf || needs.eta_scale || needs.lobes || needs.branches);
+        EXPECT_EQ(needs.connect_point | needs.connect_area, 0u);
+    }
+}
+
+TEST(Needs, TheKernelsOfTheMaterialsThereAreAndNoOther) {
+    for (std::size_t present = 0; present < all_kinds.size(); ++present) {
+        const Needs needs = needs_of(world({all_kinds[present]}));
+        for (std::size_t k = 0; k < all_kinds.size(); ++k) EXPECT_EQ(needs.scatters(all_ways[k]), k == present);
+        EXPECT_EQ(needs.scattering, bit(all_ways[present]));
+        EXPECT_FALSE(needs.branches);
+    }
+}
+
+TEST(Needs, NoKernelForAMaterialThatNoPrimitiveCarries) {
+    Scene scene = world({diffuse, dielectric});
+    scene.primitives.pop_back();
+    EXPECT_EQ(needs_of(scene).scattering, bit(Scattering::diffuse));
+}
+
+TEST(Needs, ASortWhereSurfacesScatterInMoreThanOneWay) {
+    for (const MaterialKind kind : all_kinds) EXPECT_FALSE(needs_of(world({kind, kind, kind})).sort);
+    EXPECT_TRUE(needs_of(world({diffuse, specular})).sort);
+    EXPECT_TRUE(needs_of(world({diffuse, specular, glossy, dielectric, translucent})).sort);
+    // Whitted's glossy surfaces are mirrors, and its translucent ones glass.
+    for (const Integrator integrator : {Integrator::path_tracing, Integrator::whitted}) {
+        for (Scene scene : {world({specular, glossy}), world({dielectric, translucent})}) {
+            scene.settings.integrator = integrator;
+            EXPECT_EQ(needs_of(scene).sort, integrator == Integrator::path_tracing);
+        }
+    }
+}
+
+TEST(Needs, ALensWhereTheApertureIsOpen) {
+    for (const Integrator integrator : {Integrator::path_tracing, Integrator::whitted, Integrator::depth}) {
+        Scene scene = world({diffuse});
+        scene.settings.integrator = integrator;
+        EXPECT_FALSE(needs_of(scene).lens);
+        scene.camera.aperture = 0.1;
+        EXPECT_TRUE(needs_of(scene).lens);
+    }
+}
+
+TEST(Needs, OfWhittedAreThoseOfUnperturbedDirections) {
+    Scene scene = world({diffuse, glossy, translucent});
+    scene.settings.integrator = Integrator::whitted;
+    add_point_light(scene);
+    add_area_light(scene);
+    const Needs needs = needs_of(scene);
+    EXPECT_EQ(needs.scattering, bit(Scattering::diffuse) | bit(Scattering::specular) | bit(Scattering::dielectric));
+    EXPECT_TRUE(needs.branches && needs.sort && needs.emitters);
+    EXPECT_EQ(needs.connect_point, bit(Scattering::diffuse)) << "direct light at diffuse hits";
+    EXPECT_EQ(needs.connect_area, bit(Scattering::diffuse));
+    EXPECT_FALSE(needs.roulette || needs.eta_scale || needs.scattering_pdf || needs.competing || needs.lobes);
+
+    scene = world({diffuse, glossy});
+    scene.settings.integrator = Integrator::whitted;
+    EXPECT_FALSE(needs_of(scene).branches) << "no glass";
+}
+
+TEST(Needs, OfDepthAreTheFirstHits) {
+    Scene scene = world({diffuse, glossy, translucent});
+    add_point_light(scene);
+    add_area_light(scene);
+    scene.background = dvec3{1};
+    scene.settings.integrator = Integrator::depth;
+    const Needs needs = needs_of(scene);
+    EXPECT_EQ(needs.scattering, 0u);
+    EXPECT_EQ(needs.connect_point | needs.connect_area, 0u);
+    EXPECT_FALSE(needs.sort || needs.emitters || needs.background || needs.competing || needs.scattering_pdf);
+    EXPECT_FALSE(needs.eta_scale || needs.lobes || needs.roulette || needs.branches);
+}
+
+TEST(Needs, LightsThatShine) {
+    Scene scene = world({diffuse});
+    scene.background = dvec3{0};
+    add_area_light(scene, dvec3{0});
+    add_point_light(scene, dvec3{0});
+    Needs needs = needs_of(scene);
+    EXPECT_FALSE(needs.emitters || needs.background) << "switched off";
+    EXPECT_EQ(needs.connect_point | needs.connect_area, 0u);
+    EXPECT_TRUE(Plan(scene).point_lights().empty() && Plan(scene).area_lights().empty());
+
+    scene.background = {0, 0, 0.1};  // one channel is enough
+    add_area_light(scene, {0, 0.1, 0});
+    add_point_light(scene, {0.1, 0, 0});
+    needs = needs_of(scene);
+    EXPECT_TRUE(needs.emitters && needs.background);
+    EXPECT_NE(needs.connect_point, 0u);
+    EXPECT_NE(needs.connect_area, 0u);
+    EXPECT_EQ(Plan(scene).point_lights().size(), 1u);
+    EXPECT_EQ(Plan(scene).area_lights().size(), 1u);
+}
+
+TEST(Needs, PointLightsSampledFromEverySurfaceButTheSmooth) {
+    constexpr std::uint32_t rough = bit(Scattering::diffuse) | bit(Scattering::glossy) | bit(Scattering::translucent);
+    for (const Transport transport : {Transport::naive, Transport::nee, Transport::mis}) {
+        Scene scene = world({diffuse, specular, glossy, dielectric, translucent});
+        scene.settings.transport = transport;
+        add_point_light(scene);
+        const Needs needs = needs_of(scene);
+        EXPECT_EQ(needs.connect_point, rough) << "no path can run into one, naive ones included";
+        EXPECT_EQ(needs.connect_area, 0u);
+        EXPECT_FALSE(needs.scattering_pdf || needs.competing) << "nothing else finds them";
+        EXPECT_TRUE(needs.lobes);
+    }
+    Scene smooth = world({specular, dielectric});
+    add_point_light(smooth);
+    EXPECT_EQ(needs_of(smooth).connect_point, 0u);
+    EXPECT_FALSE(needs_of(smooth).lobes);
+}
+
+TEST(Needs, AreaLightsSampledAsTheTransportSays) {
+    constexpr std::uint32_t rough = bit(Scattering::diffuse) | bit(Scattering::glossy) | bit(Scattering::translucent);
+    Scene scene = world({diffuse, specular, glossy, dielectric, translucent});
+    add_area_light(scene);
+    scene.settings.transport = Transport::naive;
+    Needs needs = needs_of(scene);
+    EXPECT_EQ(needs.connect_area, 0u);
+    EXPECT_FALSE(needs.scattering_pdf || needs.competing || needs.lobes);
+
+    scene.settings.transport = Transport::nee;
+    needs = needs_of(scene);
+    EXPECT_EQ(needs.connect_area, bit(Scattering::diffuse));
+    EXPECT_TRUE(needs.scattering_pdf) << "emission behind diffuse vertices must not count twice";
+    EXPECT_FALSE(needs.competing || needs.lobes);
+
+    scene.settings.transport = Transport::mis;
+    needs = needs_of(scene);
+    EXPECT_EQ(needs.connect_area, rough);
+    EXPECT_TRUE(needs.scattering_pdf && needs.competing && needs.lobes);
+}
+
+TEST(Needs, NoCompetitionWhereNoSurfaceSamplesLights) {
+    for (const Transport transport : {Transport::nee, Transport::mis}) {
+        Scene scene = world({specular, dielectric});
+        add(scene, specular).emission = dvec3{1};
+        scene.settings.transport = transport;
+        const Needs needs = needs_of(scene);
+        EXPECT_TRUE(needs.emitters);
+        EXPECT_EQ(needs.connect_area, 0u);
+        EXPECT_FALSE(needs.scattering_pdf);
+    }
+    Scene shiny = world({glossy});
+    add(shiny, glossy).emission = dvec3{1};
+    shiny.settings.transport = Transport::nee;
+    EXPECT_FALSE(needs_of(shiny).scattering_pdf) << "nee leaves area lights to the perturbed ray";
+}
+
+TEST(Needs, RouletteWhereItIsOnAndPathsScatter) {
+    Scene scene = world({diffuse, dielectric});
+    EXPECT_TRUE(needs_of(scene).roulette);
+    EXPECT_TRUE(needs_of(scene).eta_scale);
+    scene.settings.depth = 0;
+    EXPECT_FALSE(needs_of(scene).roulette || needs_of(scene).eta_scale);
+    scene.settings.depth = 5;
+    scene.settings.roulette = false;
+    EXPECT_FALSE(needs_of(scene).roulette || needs_of(scene).eta_scale);
+    EXPECT_FALSE(needs_of(world({diffuse, glossy, specular})).eta_scale) << "nothing scales radiance";
+    EXPECT_TRUE(needs_of(world({translucent})).eta_scale);
+}
+
+}  // namespace
+}  // namespace orrery::test

@@ -1,0 +1,124 @@
+// What the kernels read: one column per attribute, readable to a whole vector behind the last entry.
+#include <gtest/gtest.h>
+
+#include "kernels/queues.hpp"
+#include "plan/worlds.hpp"
+
+namespace orrery::test {
+namespace {
+
+using kernels::Scattering;
+using enum MaterialKind;
+
+Scattering way_of(const Plan& plan, std::size_t sphere) {
+    return static_cast<Scattering>(plan.spheres().surface[sphere] >> kernels::surface_material_bits &
+                                   kernels::surface_kind_mask);
+}
+
+bool emits(const Plan& plan, std::size_t sphere) {
+    return (plan.spheres().surface[sphere] & kernels::surface_emits) != 0;
+}
+
+TEST(SphereTable, HoldsPrimitivesInTheirOrder) {
+    Scene scene = world({glossy, diffuse, glossy});
+    scene.primitives[2] = {"", {1, 2, 3}, 4, 0, {}};
+    const Plan plan(scene);
+    const auto& s = plan.spheres();
+    ASSERT_EQ(s.count, 3u);
+    EXPECT_EQ((dvec3{s.cx[2], s.cy[2], s.cz[2]}), (dvec3{1, 2, 3}));
+    EXPECT_EQ(s.radius[2], 4);
+    EXPECT_EQ(s.surface[0] & kernels::surface_material_mask, 0u);
+    EXPECT_EQ(s.surface[1] & kernels::surface_material_mask, 1u);
+    EXPECT_EQ(s.surface[2] & kernels::surface_material_mask, 0u) << "two spheres may share a material";
+}
+
+TEST(SphereTable, SaysHowSurfacesScatter) {
+    Scene scene = world({diffuse, specular, glossy, dielectric, translucent});
+    {
+        const Plan plan(scene);
+        for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(way_of(plan, k), static_cast<Scattering>(k));
+    }
+    scene.settings.integrator = Integrator::whitted;  // follows the unperturbed direction
+    const Plan plan(scene);
+    EXPECT_EQ(way_of(plan, 2), Scattering::specular);
+    EXPECT_EQ(way_of(plan, 4), Scattering::dielectric);
+}
+
+TEST(Lights, AreTheSpheresThatEmitAndThePoints) {
+    Scene scene = world({diffuse});
+    add_area_light(scene, {0, 0, 0});
+    add_area_light(scene, {1, 2, 3});
+    add_area_light(scene, {4, 5, 6});
+    add_point_light(scene, dvec3{0});
+    add_point_light(scene, {7, 8, 9});
+    const Plan plan(scene);
+    EXPECT_FALSE(emits(plan, 0));
+    EXPECT_FALSE(emits(plan, 1)) << "switched off";
+    ASSERT_EQ(plan.area_lights().size(), 2u);
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        const std::uint32_t sphere = i + 2;
+        const auto& light = plan.area_lights()[i];
+        EXPECT_TRUE(emits(plan, sphere));
+        EXPECT_EQ(plan.spheres().light[sphere], i);
+        EXPECT_EQ(light.sphere, sphere);
+        EXPECT_EQ((dvec3{light.cx, light.cy, light.cz}), scene.primitives[sphere].centre);
+        EXPECT_EQ(light.radius, 1);
+        EXPECT_EQ((dvec3{light.r, light.g, light.b}), *scene.primitives[sphere].emission);
+        const auto& table = plan.emission();
+        EXPECT_EQ((dvec3{table.r[i], table.g[i], table.b[i]}), *scene.primitives[sphere].emission);
+    }
+    ASSERT_EQ(plan.point_lights().size(), 1u);
+    const auto& point = plan.point_lights()[0];
+    EXPECT_EQ((dvec3{point.px, point.py, point.pz}), (dvec3{0, 5, 0}));
+    EXPECT_EQ((dvec3{point.r, point.g, point.b}), (dvec3{7, 8, 9}));
+}
+
+TEST(MaterialTable, HoldsEveryNumber) {
+    Scene scene = world({translucent});
+    scene.materials[0] = {"", translucent, {0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, 1.7, 0.8};
+    const Plan plan(scene);
+    const auto& m = plan.materials();
+    EXPECT_EQ(m.count, 1u);
+    EXPECT_EQ(m.rho_r[0], 0.1f);
+    EXPECT_EQ(m.rho_g[0], 0.2f);
+    EXPECT_EQ(m.rho_b[0], 0.3f);
+    EXPECT_EQ(m.tau_r[0], 0.4f);
+    EXPECT_EQ(m.tau_g[0], 0.5f);
+    EXPECT_EQ(m.tau_b[0], 0.6f);
+    EXPECT_EQ(m.eta[0], 1.7f);
+    EXPECT_EQ(m.roughness[0], 0.8f);
+}
+
+TEST(Background, IsThatOfTheScene) {
+    Scene scene = empty_world();
+    EXPECT_FALSE(Plan(scene).emission().has_background);
+    scene.background = {0.25, 0, 4};
+    const Plan plan(scene);
+    EXPECT_TRUE(plan.emission().has_background);
+    EXPECT_EQ(plan.emission().background_r, 0.25f);
+    EXPECT_EQ(plan.emission().background_b, 4.0f);
+}
+
+// Under AddressSanitizer this is the test that columns are padded, an empty scene's too.
+TEST(Tables, CanBeReadAWholeVectorBehindTheEnd) {
+    for (const Scene& scene : {empty_world(), world({diffuse, dielectric})}) {
+        const Plan plan(scene);
+        const auto& s = plan.spheres();
+        const auto& m = plan.materials();
+        const auto& e = plan.emission();
+        float sum = 0;
+        std::uint32_t words = 0;
+        for (std::uint32_t i = 0; i < kernels::widest; ++i) {
+            for (const float* column : {s.cx, s.cy, s.cz, s.radius}) sum += column[s.count + i];
+            for (const float* column : {m.rho_r, m.rho_g, m.rho_b, m.tau_r, m.tau_g, m.tau_b, m.eta, m.roughness})
+                sum += column[m.count + i];
+            for (const float* column : {e.r, e.g, e.b}) sum += column[e.count + i];
+            words |= s.surface[s.count + i] | s.light[s.count + i];
+        }
+        EXPECT_EQ(sum, 0);
+        EXPECT_EQ(words, 0u);
+    }
+}
+
+}  // namespace
+}  // namespace orrery::test

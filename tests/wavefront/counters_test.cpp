@@ -1,0 +1,180 @@
+// What the statistics say: rays where they are cast, memory, samples that were no number.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "wavefront/scenes.hpp"
+
+namespace orrery::test {
+namespace {
+
+constexpr std::uint64_t pixels = 16 * 16, samples = 9, paths = pixels * samples;
+
+/// A ball that fills the image; whatever its rays do next, they do not meet it again.
+Scene filled(const Material& material, std::uint32_t depth) {
+    Scene scene = picture({0, 0, -3}, {0, 0, 0}, 20, depth);
+    add_sphere(scene, {0, 0, 0}, 1, material);
+    scene.settings.samples = samples;
+    scene.settings.roulette = false;
+    return scene;
+}
+
+/// Above the horizon of every point that `filled` shows.
+const dvec3 overhead{0.5, 0.5, -9};
+
+void expect_rays(const Scene& scene, std::uint64_t closest, std::uint64_t shadow, const char* what) {
+    for (const Isa isa : supported_isas()) {
+        const RenderStats stats = render(scene, {.isa = isa}).stats;
+        EXPECT_EQ(stats.closest_rays, closest) << what << ", " << isa_name(isa);
+        EXPECT_EQ(stats.shadow_rays, shadow) << what << ", " << isa_name(isa);
+    }
+}
+
+TEST(Rays, OfDepthAreThoseOfTheCamera) {
+    Scene scene = filled(glass(1, 1.5), 20);
+    add_lamp(scene, overhead, 0.5, dvec3{1});
+    add_point_light(scene, overhead, dvec3{1});
+    scene.settings.integrator = Integrator::depth;
+    expect_rays(scene, paths, 0, "DEPTH");
+}
+
+TEST(Rays, OfPathsAreCountedWhereTheyAreCast) {
+    Scene scene = filled(diffuse(dvec3{0.5}), 0);
+    add_point_light(scene, overhead, dvec3{1});
+    expect_rays(scene, paths, 0, "depth 0: nothing scatters");
+    scene.settings.depth = 1;
+    expect_rays(scene, paths, paths, "depth 1: one shadow ray per vertex, and nothing beyond to run into");
+    scene.settings.depth = 2;
+    expect_rays(scene, 2 * paths, paths, "depth 2: the second rays miss");
+    add_point_light(scene, overhead * 2.0, dvec3{1});
+    expect_rays(scene, 2 * paths, 2 * paths, "two lights");
+    add_point_light(scene, {0, 0, 5}, dvec3{1});
+    expect_rays(scene, 2 * paths, 2 * paths, "a third below the horizon");
+    scene.background = dvec3{1};
+    scene.settings.depth = 1;
+    expect_rays(scene, 2 * paths, 2 * paths, "a background the last rays may run into");
+}
+
+TEST(Rays, TowardsAreaLightsAreThoseOfTheTransport) {
+    Scene scene = filled(diffuse(dvec3{0.5}), 1);
+    add_lamp(scene, overhead, 0.5, dvec3{1}, diffuse(dvec3{0}));
+    scene.settings.transport = Transport::nee;
+    expect_rays(scene, paths, paths, "nee: the last diffuse ray is not cast");
+    scene.settings.transport = Transport::mis;
+    expect_rays(scene, 2 * paths, paths, "mis: both");
+    scene.settings.transport = Transport::naive;
+    expect_rays(scene, 2 * paths, 0, "naive: no light is sampled");
+
+    scene.materials[0] = glossy(0.5, 0.2);
+    expect_rays(scene, 2 * paths, 0, "glossy, naive");
+    scene.settings.transport = Transport::nee;
+    expect_rays(scene, 2 * paths, 0, "glossy, nee: the perturbed ray finds the light");
+    scene.materials[0] = mirror(0.5);
+    scene.settings.transport = Transport::mis;
+    expect_rays(scene, 2 * paths, 0, "a mirror samples no light");
+}
+
+// Half of a light's surface turns away from any point outside it; no ray is cast towards that half.
+TEST(Rays, AreNotCastTowardsTheFarSideOfALight) {
+    Scene scene = filled(diffuse(dvec3{0.5}), 1);
+    add_lamp(scene, overhead, 0.5, dvec3{1}, diffuse(dvec3{0}));
+    scene.settings.transport = Transport::nee;
+    scene.settings.light_sampling = LightSampling::area;
+    scene.settings.samples = 100;
+    const auto shadow = static_cast<double>(render(scene).stats.shadow_rays) / (100 * pixels);
+    EXPECT_NEAR(shadow, 0.5 * (1 - 0.5 / 8), 0.03);  // a little less than half of a sphere so near is seen
+}
+
+TEST(Rays, OfWhittedTreesAreTheirNodes) {
+    Scene scene = filled(diffuse(dvec3{0.5}), 3);
+    scene.settings.integrator = Integrator::whitted;
+    add_point_light(scene, overhead, dvec3{1});
+    add_lamp(scene, overhead, 0.5, dvec3{1}, diffuse(dvec3{0}));
+    expect_rays(scene, paths, 2 * paths, "a diffuse surface ends the ray");
+    scene.materials[0] = mirror(0.5);
+    expect_rays(scene, 2 * paths, 0, "a mirror turns it");
+    scene.materials[0] = glass(1, 1.5);
+    scene.settings.depth = 0;
+    expect_rays(scene, paths, 0, "depth 0");
+    scene.settings.depth = 1;
+    expect_rays(scene, 3 * paths, 0, "depth 1: reflected and transmitted");
+    scene.settings.depth = 2;
+    expect_rays(scene, 5 * paths, 0, "depth 2: the transmitted one branches again, the reflected one is gone");
+    scene.settings.depth = 3;
+    expect_rays(scene, 7 * paths, 0, "depth 3: of those two the one that stayed inside");
+}
+
+TEST(Statistics, SayWhatRan) {
+    for (const Integrator integrator : all_integrators) {
+        const Scene scene = everything(integrator);
+        for (const Isa isa : supported_isas()) {
+            const RenderStats stats = render(scene, {.threads = 2, .isa = isa}).stats;
+            EXPECT_EQ(stats.isa, isa);
+            EXPECT_EQ(stats.threads, 2u);
+            EXPECT_EQ(stats.samples_per_pixel, 4u);
+            EXPECT_GT(stats.seconds, 0);
+            EXPECT_EQ(stats.closest_rays == 0, false);
+            EXPECT_EQ(stats.shadow_rays == 0, integrator == Integrator::depth);
+            for (const double seconds : stats.stage_seconds) EXPECT_GE(seconds, 0);
+            EXPECT_GT(stats.stage_seconds[static_cast<std::size_t>(Stage::intersect)], 0);
+            EXPECT_EQ(stats.stage_seconds[static_cast<std::size_t>(Stage::shadow)] > 0,
+                      integrator != Integrator::depth);
+        }
+    }
+}
+
+// The queues of a thread stay below 4 MiB whatever the image, the integrator and the depth of its trees.
+TEST(Statistics, QueuesStaySmall) {
+    for (const Integrator integrator : all_integrators) {
+        for (const std::uint32_t depth : {0u, 1u, 5u, 20u}) {
+            Scene scene = everything(integrator);
+            scene.settings.depth = depth;
+            scene.settings.width = 200;
+            scene.settings.height = 3;
+            const RenderStats stats = render(scene).stats;
+            EXPECT_LT(stats.queue_bytes, std::uint64_t{4} << 20) << name_of(integrator) << ", depth " << depth;
+            EXPECT_GE(stats.wave_size, 256u);
+            EXPECT_EQ(stats.bytes_per_ray, stats.queue_bytes / stats.wave_size);
+        }
+    }
+}
+
+void expect_finite(const Image& image) {
+    for (const Rgb& p : image.pixels) EXPECT_TRUE(std::isfinite(p.r) && std::isfinite(p.g) && std::isfinite(p.b));
+}
+
+// So bright and so near that the radiance it returns is no float: those samples are dropped, every one is counted, and
+// the pixel keeps the mean of the others.
+TEST(DroppedSamples, AreCountedAndKeptOut) {
+    for (const Integrator integrator : {Integrator::path_tracing, Integrator::whitted}) {
+        Scene scene = picture({0, 0, -3}, {0, 0, 0}, 60, 1);
+        add_sphere(scene, {0, 0, 0}, 1, diffuse(dvec3{0.5}));
+        add_point_light(scene, {0, 0, -1.05}, dvec3{3e38});
+        scene.background = {1, 2, 3};
+        scene.settings.integrator = integrator;
+        scene.settings.samples = 16;
+        scene.settings.roulette = false;
+        for (const Isa isa : supported_isas()) {
+            const RenderResult result = render(scene, {.isa = isa});
+            expect_finite(result.image);
+            EXPECT_GT(result.stats.dropped_samples, 0u);
+            EXPECT_LE(result.stats.dropped_samples, result.stats.shadow_rays);
+            EXPECT_EQ(result.image.at(0, 0), (Rgb{1, 2, 3}));
+            EXPECT_EQ(result.image.at(8, 8), Rgb{}) << "no sample was left";
+        }
+    }
+}
+
+TEST(DroppedSamples, AreNoneWhereALightLiesOnASurface) {
+    Scene scene = still_life(diffuse(dvec3{0.5}));
+    add_point_light(scene, {-0.5, 2, 0}, {1, 2, 3});  // the ball's north pole
+    add_point_light(scene, {-0.5, 1, 0}, {1, 2, 3});  // its centre
+    add_point_light(scene, scene.camera.position, {1, 2, 3});
+    const RenderResult result = render(scene);
+    expect_finite(result.image);
+    EXPECT_EQ(result.stats.dropped_samples, 0u);
+}
+
+}  // namespace
+}  // namespace orrery::test

@@ -1,0 +1,79 @@
+// The two image estimators: where in its pixel a sample falls.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "wavefront/agreement.hpp"
+
+namespace orrery::test {
+namespace {
+
+// Edges in all directions and no other noise: how bright a pixel is, is how much of it a lamp covers.
+Scene edges() {
+    Scene scene = picture({0, 0, -5}, {0, 0, 0}, 40, 0);
+    add_lamp(scene, {0, 0, 0}, 1.2, {1, 2, 3});
+    add_lamp(scene, {1.5, 1.2, -1}, 0.5, {3, 2, 1});
+    add_lamp(scene, {-6, -6, 3}, 6, {2, 1, 2});
+    return scene;
+}
+
+// Pixel by pixel, because a shift by part of a pixel is lost in the mean of a block. Samples in one cell too many or
+// too few, or cells that do not tile the pixel, move the edges.
+class Strata : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(Strata, CoverThePixel) {
+    const Budget budget{.samples = GetParam(), .seeds = 64, .reference_samples = 6000, .block_size = 1};
+    const auto in = [](Estimator estimator) { return [=](RenderSettings& s) { s.estimator = estimator; }; };
+    expect_agreement_of({{"uniform", in(Estimator::uniform)}, {"stratified", in(Estimator::stratified)}}, edges(),
+                        budget);
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, Strata, testing::Values(1u, 4u, 6u, 9u, 30u));
+
+// The point of stratification.
+TEST(Stratified, IsLessNoisyThanUniform) {
+    const auto noise = [](Estimator estimator) {
+        const auto blocks = blocks_of(edges(), {"", [=](RenderSettings& s) { s.estimator = estimator; }},
+                                      {.samples = 64, .seeds = 16, .block_size = 16});
+        return blocks.blocks[0][0].standard_error();
+    };
+    EXPECT_LT(noise(Estimator::stratified), 0.5 * noise(Estimator::uniform));
+}
+
+TEST(Stratified, TakesTheLargestSquareOfSamples) {
+    for (const auto& [asked, taken] : {std::pair{1u, 1u}, {2u, 1u}, {3u, 1u}, {4u, 4u}, {8u, 4u}, {99u, 81u}}) {
+        Scene scene = edges();
+        scene.settings.samples = asked;
+        const RenderStats stratified = render(scene).stats;
+        EXPECT_EQ(stratified.samples_per_pixel, taken);
+        EXPECT_EQ(stratified.closest_rays, 256 * taken);
+        scene.settings.estimator = Estimator::uniform;
+        const RenderStats uniform = render(scene).stats;
+        EXPECT_EQ(uniform.samples_per_pixel, asked);
+        EXPECT_EQ(uniform.closest_rays, 256 * asked);
+    }
+}
+
+// Asking for more samples adds to those there are. Here a sample is 0 or 1, so that a pixel's mean tells their number.
+TEST(Uniform, SampleIsTheSameHoweverManyFollow) {
+    Scene scene = picture({0, 0, -5}, {0, 0, 0}, 40, 0);
+    add_lamp(scene, {0.3, 0.4, 0}, 1.2, dvec3{1});
+    scene.settings.estimator = Estimator::uniform;
+    std::vector<long> lit(256, 0);
+    long mixed = 0;
+    for (std::uint32_t samples = 1; samples <= 40; ++samples) {
+        scene.settings.samples = samples;
+        const Image image = image_of(scene);
+        for (std::size_t i = 0; i < lit.size(); ++i) {
+            const long now = std::lround(image.pixels[i].r * static_cast<float>(samples));
+            const long added = now - lit[i];
+            EXPECT_TRUE(added == 0 || added == 1) << "pixel " << i << ", sample " << samples - 1;
+            lit[i] = now;
+            if (samples == 40 && now > 0 && now < 40) ++mixed;
+        }
+    }
+    EXPECT_GT(mixed, 10) << "the scene has pixels on an edge";
+}
+
+}  // namespace
+}  // namespace orrery::test

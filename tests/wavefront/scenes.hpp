@@ -1,0 +1,110 @@
+// Scenes built in code, in the words the tests use.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "reference/small_scenes.hpp"
+#include "wavefront/render.hpp"
+
+namespace orrery::test {
+
+using glm::dvec3;
+using reference::add_sphere;
+using reference::diffuse;
+using reference::glass;
+using reference::glossy;
+using reference::mirror;
+
+/// A camera that looks from `eye` to `target`, and nothing to see.
+inline Scene picture(const dvec3& eye, const dvec3& target, double fov, std::uint32_t depth) {
+    Scene scene;
+    scene.camera.position = eye;
+    scene.camera.target = target;
+    scene.camera.fov = fov;
+    scene.settings.width = scene.settings.height = 16;
+    scene.settings.depth = depth;
+    return scene;
+}
+
+/// A coloured version of a material, so that swapped channels and swapped reflectances show.
+inline Material tinted(Material material, const dvec3& rho, const dvec3& rho_t = dvec3{0}) {
+    material.rho = rho;
+    material.rho_t = rho_t;
+    return material;
+}
+
+/// An emissive sphere that also reflects.
+inline Primitive& add_lamp(Scene& scene, const dvec3& centre, double radius, const dvec3& radiance,
+                           const Material& material = diffuse(dvec3{0.4})) {
+    Primitive& lamp = add_sphere(scene, centre, radius, material);
+    lamp.emission = radiance;
+    return lamp;
+}
+
+inline void add_point_light(Scene& scene, const dvec3& position, const dvec3& intensity) {
+    scene.point_lights.push_back({"point", position, intensity});
+}
+
+/// A ball of some material beside a small diffuse one, on a diffuse floor; no light yet.
+inline Scene still_life(const Material& material, std::uint32_t depth = 4) {
+    Scene scene = picture({0, 2, -6}, {0, 0.7, 0}, 36, depth);
+    add_sphere(scene, {0, -40, 0}, 40, diffuse({0.8, 0.6, 0.4}));
+    add_sphere(scene, {-0.5, 1, 0}, 1, material);
+    add_sphere(scene, {1.2, 0.5, -0.6}, 0.5, diffuse({0.3, 0.7, 0.6}));
+    return scene;
+}
+
+/// One of everything the program knows, some of it twice: every material, every light, overlapping and nested spheres,
+/// a lens. What no setting may change is tested on this.
+inline Scene everything(Integrator integrator = Integrator::path_tracing) {
+    Scene scene = still_life(glass(0.9, 1.5), 8);
+    add_sphere(scene, {-0.5, 1, 0}, 0.5, tinted(glass(0, 0.8), {0.9, 0.8, 0.7}, {0.7, 0.8, 0.9}));  // nested
+    add_sphere(scene, {0.9, 1.4, 0.8}, 0.7, tinted(mirror(0), {0.9, 0.7, 0.5}));
+    add_sphere(scene, {1.5, 1.2, 0.9}, 0.5, glossy(0.8, 0.3));  // overlaps the mirror
+    add_sphere(scene, {-1.9, 0.6, -0.3}, 0.6, glass(0.95, 1.3, 0.2));
+    add_lamp(scene, {-1.5, 3.5, -1}, 0.7, {4, 3, 5});
+    add_lamp(scene, {0.3, 0.25, -1.6}, 0.25, {2, 5, 3}, glass(0.8, 1.4));  // touches the floor
+    add_lamp(scene, {2.6, 0.8, 0.5}, 0.6, {1, 0.5, 0.2}, mirror(0.6));
+    add_point_light(scene, {2, 4, -3}, {9, 8, 7});
+    add_point_light(scene, {-0.2, 1.1, 0.1}, {1, 2, 3});  // inside both glasses
+    scene.background = {0.1, 0.2, 0.3};
+    scene.camera.aperture = 0.2;
+    scene.camera.focal_distance = 6;
+    scene.settings.integrator = integrator;
+    scene.settings.samples = 4;
+    return scene;
+}
+
+inline constexpr std::initializer_list<Integrator> all_integrators = {Integrator::path_tracing, Integrator::whitted,
+                                                                      Integrator::depth};
+
+inline std::string name_of(Integrator integrator) {
+    return integrator == Integrator::path_tracing ? "PT" : integrator == Integrator::whitted ? "WRT" : "DEPTH";
+}
+
+inline std::vector<Isa> supported_isas() {
+    std::vector<Isa> isas;
+    for (const Isa isa : all_isas)
+        if (isa_supported(isa)) isas.push_back(isa);
+    return isas;
+}
+
+/// RenderOptions of which a test names those it is about.
+struct How {
+    unsigned threads = 0;
+    Isa isa = best_isa();
+    std::uint32_t wave_size = 0;
+    std::function<void(double, std::uint64_t)> progress = {};
+    std::function<bool()> interrupted = {};
+};
+
+inline RenderResult render(const Scene& scene, const How& how = {}) {
+    return orrery::render(Plan(scene), {how.threads, how.isa, how.wave_size, how.progress, how.interrupted});
+}
+
+inline Image image_of(const Scene& scene, const How& how = {}) { return render(scene, how).image; }
+
+}  // namespace orrery::test
