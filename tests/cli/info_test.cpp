@@ -1,0 +1,49 @@
+// orrery info: the plan in words.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "kernels/isa.hpp"
+#include "program.hpp"
+
+namespace orrery::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+
+TEST(Info, PrintsSettingsMemoryAndPlan) {
+    const Outcome outcome = orrery({"info", scene_file("tests/diffuse_area.json"), "--spp", "10", "--size", "640x480"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    EXPECT_THAT(outcome.output,
+                AllOf(HasSubstr("640 x 480"), HasSubstr("9 per pixel, stratified 3 x 3 (10 asked)"),
+                      HasSubstr("film       16.4 MiB"), ContainsRegex("queues +[0-9]+ bytes"),
+                      HasSubstr(std::string(isa_name(best_isa()))), HasSubstr("tests/diffuse_area.pfm")));
+    EXPECT_THAT(outcome.output, ContainsRegex("left out +generate: lens +the camera is a pinhole"));
+    EXPECT_THAT(outcome.output, ContainsRegex("runs +shadow: area lights"));
+}
+
+TEST(Info, FollowsTheOptions) {
+    const auto info = [](std::vector<std::string> options) {
+        options.insert(options.begin(), {"info", scene_file("tests/diffuse_area.json")});
+        return orrery(options).output;
+    };
+    EXPECT_THAT(info({"--transport", "naive"}), ContainsRegex("left out +shadow: area lights"));
+    EXPECT_THAT(info({"--integrator", "depth"}), HasSubstr("DEPTH stops after intersect"));
+    EXPECT_THAT(info({"--isa", "scalar"}), HasSubstr("isa        scalar"));
+    EXPECT_THAT(info({"--wave-size", "1024"}), HasSubstr("per thread for waves of 1024"));
+    EXPECT_THAT(info({"--estimator", "uniform", "--spp", "10"}), HasSubstr("10 per pixel, uniform"));
+    EXPECT_THAT(info({"--tonemap", "linear", "--seed", "5"}), AllOf(HasSubstr("linear"), HasSubstr("seed       5")));
+}
+
+TEST(Info, RendersNothing) {
+    const TemporaryFolder folder;
+    std::filesystem::copy_file(scene_file("tests/lens.json"), folder / "lens.json");
+    // For ever, were it rendered.
+    const Outcome outcome = orrery({"info", "lens.json", "--spp", "4294967295"}, {.folder = folder.path()});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"lens.json"});
+}
+
+}  // namespace
+}  // namespace orrery::test

@@ -1,0 +1,66 @@
+// Ctrl-C, at three moments.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "program.hpp"
+#include "pseudo_terminal.hpp"
+
+namespace orrery::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+
+class Interruption : public ::testing::TestWithParam<int> {};
+
+TEST_P(Interruption, InMidRenderLeavesThePreviousImageAndNothingElse) {
+    const TemporaryFolder folder;
+    store(folder / "x.png", to_bytes("previous"));
+    PseudoTerminal terminal;
+    // Minutes of work; the first tile shows progress within moments.
+    Program program({"render", scene_file("assignment_08.json"), "--size", "1024x1024", "--spp", "1024", "-o", "x.png",
+                     "--stats", "s.json"},
+                    {.folder = folder.path(), .terminal = terminal.program_side()});
+    ASSERT_TRUE(terminal.shows(" left")) << terminal.shown();
+    program.send(GetParam());
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.exit_code, 128 + GetParam());
+    EXPECT_EQ(outcome.output, "");
+    EXPECT_EQ(load(folder / "x.png"), "previous");
+    EXPECT_THAT(folder.names(), ElementsAre("x.png"));
+    EXPECT_THAT(terminal.shown(), EndsWith(" \r")) << "the bar is gone";
+}
+
+TEST_P(Interruption, WhileReadingTheSceneEndsAtOnce) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(::mkfifo((folder / "scene.json").c_str(), 0600), 0);
+    Program program({"render", "scene.json", "-o", "x.png"}, {.folder = folder.path()});
+    // Opens when the program does: it is reading now, and reads for ever.
+    const int writer = ::open((folder / "scene.json").c_str(), O_WRONLY | O_CLOEXEC);
+    program.send(GetParam());
+    EXPECT_EQ(program.wait().exit_code, 128 + GetParam());
+    ::close(writer);
+    EXPECT_THAT(folder.names(), ElementsAre("scene.json"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, Interruption, ::testing::Values(SIGINT, SIGTERM, SIGHUP));
+
+TEST(InterruptionTwice, EndsWorkThatIsSlowToAsk) {
+    const TemporaryFolder folder;
+    PseudoTerminal terminal;
+    Program program({"render", scene_file("assignment_08.json"), "--size", "1024x1024", "--spp", "1024", "-o", "x.png"},
+                    {.folder = folder.path(), .terminal = terminal.program_side()});
+    ASSERT_TRUE(terminal.shows(" left"));
+    program.send(SIGINT);
+    program.send(SIGTERM);
+    EXPECT_THAT(program.wait().exit_code, ::testing::AnyOf(128 + SIGINT, 128 + SIGTERM));
+    EXPECT_THAT(folder.names(), ElementsAre());
+}
+
+}  // namespace
+}  // namespace orrery::test

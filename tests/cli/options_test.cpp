@@ -1,0 +1,185 @@
+// Every option does something, and only what it says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "kernels/isa.hpp"
+#include "program.hpp"
+
+namespace orrery::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using Arguments = std::vector<std::string>;
+using Json = nlohmann::json;
+
+/// Renders a scene of the repository with some options and returns the statistics.
+Json stats_of(const std::string& scene, const Arguments& options) {
+    const TemporaryFolder folder;
+    Arguments arguments = {"render", scene_file(scene), "-o", (folder / "x.pfm").string(), "--stats", "-"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = orrery(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    return Json::parse(outcome.output);
+}
+
+/// As above, and the bytes of the image.
+std::string image_of(const std::string& scene, const Arguments& options, const std::string& name = "x.pfm") {
+    const TemporaryFolder folder;
+    Arguments arguments = {"render", scene_file(scene), "--quiet", "-o", (folder / name.c_str()).string()};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = orrery(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    EXPECT_EQ(outcome.error, "");
+    return load(folder / name.c_str());
+}
+
+TEST(Options, SizeChangesTheImageAndNotTheView) {
+    const std::string square = image_of("tests/depth.json", {"--size", "2x2", "--spp", "1"});
+    const std::string wide = image_of("tests/depth.json", {"--size", "200x2", "--spp", "1"});
+    EXPECT_THAT(square, StartsWith("PF\n2 2\n"));
+    EXPECT_THAT(wide, StartsWith("PF\n200 2\n"));
+    EXPECT_EQ(stats_of("tests/depth.json", {"--size", "5x3"})["size"], Json({5, 3}));
+}
+
+TEST(Options, SppIsRoundedDownToASquareOnlyWhenStratified) {
+    EXPECT_EQ(stats_of("tests/diffuse_area.json", {"--spp", "7"})["samples_per_pixel"], 4);
+    EXPECT_EQ(stats_of("tests/diffuse_area.json", {"--spp", "7", "--estimator", "uniform"})["samples_per_pixel"], 7);
+}
+
+TEST(Options, SeedChangesTheNoise) {
+    const std::string image = image_of("tests/diffuse_area.json", {});
+    EXPECT_EQ(image_of("tests/diffuse_area.json", {"--seed", "0"}), image);
+    EXPECT_NE(image_of("tests/diffuse_area.json", {"--seed", "4294967295"}), image);
+}
+
+TEST(Options, IntegratorDepthCastsOneRayPerSample) {
+    const Json stats = stats_of("tests/diffuse_area.json", {"--integrator", "depth"});
+    EXPECT_EQ(stats["rays"]["closest"], 32 * 32 * 16);
+    EXPECT_EQ(stats["rays"]["shadow"], 0);
+    EXPECT_EQ(stats["integrator"], "depth");
+}
+
+TEST(Options, IntegratorWhittedKnowsNoIndirectLight) {
+    const Json whitted = stats_of("tests/diffuse_area.json", {"--integrator", "wrt"});
+    EXPECT_EQ(whitted["rays"]["closest"], 32 * 32 * 16) << "diffuse surfaces end a Whitted path";
+    EXPECT_GT(whitted["rays"]["shadow"], 0);
+    EXPECT_GT(stats_of("tests/diffuse_area.json", {"--integrator", "pt"})["rays"]["closest"], 32 * 32 * 16);
+}
+
+TEST(Options, DepthBoundsThePath) {
+    EXPECT_EQ(stats_of("tests/diffuse_area.json", {"--depth", "0"})["rays"]["shadow"], 0);
+    const auto rays = [](const char* depth) {
+        return stats_of("tests/diffuse_area.json", {"--depth", depth})["rays"]["closest"].get<int>();
+    };
+    EXPECT_LT(rays("1"), rays("3"));
+}
+
+TEST(Options, TransportNaiveCastsNoShadowRays) {
+    EXPECT_EQ(stats_of("tests/diffuse_area.json", {"--transport", "naive"})["rays"]["shadow"], 0);
+    EXPECT_GT(stats_of("tests/diffuse_area.json", {"--transport", "nee"})["rays"]["shadow"], 0);
+    EXPECT_NE(image_of("tests/diffuse_area.json", {"--transport", "mis"}),
+              image_of("tests/diffuse_area.json", {"--transport", "nee"}));
+}
+
+TEST(Options, LightSamplingAndEstimatorChangeTheSamples) {
+    EXPECT_NE(image_of("tests/diffuse_area.json", {"--light-sampling", "area"}),
+              image_of("tests/diffuse_area.json", {"--light-sampling", "cone"}));
+    EXPECT_NE(image_of("tests/diffuse_area.json", {"--estimator", "uniform"}),
+              image_of("tests/diffuse_area.json", {"--estimator", "stratified"}));
+}
+
+TEST(Options, RouletteEndsPathsEarly) {
+    const auto rays = [](const char* roulette) {
+        return stats_of("tests/diffuse_area.json", {"--depth", "20", "--roulette", roulette})["rays"]["closest"]
+            .get<int>();
+    };
+    EXPECT_LT(rays("on"), rays("off"));
+}
+
+TEST(Options, TonemapMapsEightBitFormatsOnly) {
+    const auto ppm = [](const char* mapper) {
+        return image_of("tests/diffuse_area.json", {"--tonemap", mapper}, "x.ppm");
+    };
+    EXPECT_NE(ppm("sigmoid"), ppm("linear"));
+    EXPECT_NE(ppm("sigmoid"), ppm("none"));
+    EXPECT_EQ(image_of("tests/diffuse_area.json", {}, "x.ppm"), ppm("sigmoid")) << "the default";
+    EXPECT_EQ(image_of("tests/diffuse_area.json", {"--tonemap", "linear"}, "x.exr"),
+              image_of("tests/diffuse_area.json", {"--tonemap", "none"}, "x.exr"));
+}
+
+TEST(Options, WhatTheyLeaveOutTheSceneSays) {
+    const Json stats = stats_of("tests/renderer_options.json", {});
+    const std::string image = image_of("tests/renderer_options.json", {}, "x.exr");
+    std::ifstream file(scene_file("tests/renderer_options.json"));
+    const Json renderer = Json::parse(file)["scene"]["renderer"];
+    EXPECT_EQ(stats["seed"], renderer["seed"]);
+    EXPECT_THAT(image, HasSubstr("--estimator " + renderer["estimator"].get<std::string>()));
+    EXPECT_THAT(image, HasSubstr("--transport " + renderer["transport"].get<std::string>()));
+    EXPECT_THAT(image, HasSubstr("--light-sampling " + renderer["light sampling"].get<std::string>()));
+}
+
+TEST(Options, ThreadsAndWaveSizeAreReportedAndChangeNoByte) {
+    for (const char* scene : {"tests/diffuse_area.json", "tests/translucent.json", "tests/lens.json"}) {
+        const std::string image = image_of(scene, {"--threads", "1"}, "x.exr");
+        for (const char* threads : {"1", "2", "7"})
+            for (const char* wave_size : {"1", "17", "64", "1000", "5000"})
+                EXPECT_EQ(image_of(scene, {"--threads", threads, "--wave-size", wave_size}, "x.exr"), image)
+                    << scene << ", " << threads << " threads, waves of " << wave_size;
+    }
+    const Json stats = stats_of("tests/lens.json", {"--threads", "7", "--wave-size", "64"});
+    EXPECT_EQ(stats["threads"], 7);
+    EXPECT_EQ(stats["wave_size"], 64);
+}
+
+TEST(Options, WaveSizeChangesNoByteOfAWhittedImage) {
+    const std::string image = image_of("tests/whitted.json", {}, "x.png");
+    for (const char* wave_size : {"1", "100", "3000"})
+        EXPECT_EQ(image_of("tests/whitted.json", {"--threads", "2", "--wave-size", wave_size}, "x.png"), image);
+}
+
+TEST(Options, TheForcedInstructionSetRuns) {
+    for (const Isa isa : all_isas) {
+        const std::string name(isa_name(isa));
+        if (isa_supported(isa)) {
+            EXPECT_EQ(stats_of("tests/diffuse_area.json", {"--isa", name})["isa"], name);
+        } else {
+            const Outcome outcome =
+                orrery({"render", scene_file("tests/diffuse_area.json"), "-o", "/x.ppm", "--isa", name});
+            EXPECT_EQ(outcome.exit_code, 2);
+            EXPECT_THAT(outcome.error, HasSubstr(name));
+        }
+    }
+    EXPECT_EQ(stats_of("tests/diffuse_area.json", {"--isa", "auto"})["isa"], isa_name(best_isa()));
+}
+
+TEST(Options, Avx2AndAvx512GiveTheSameBytes) {
+    std::vector<std::string> images;
+    for (const Isa isa : {Isa::avx2, Isa::avx512})
+        if (isa_supported(isa))
+            images.push_back(image_of("tests/nested_glass.json", {"--isa", std::string(isa_name(isa))}, "x.exr"));
+    for (const std::string& image : images) EXPECT_EQ(image, images.front());
+}
+
+TEST(Options, PrecisionFloatIsTheDefault) {
+    EXPECT_EQ(image_of("tests/lens.json", {"--precision", "float"}), image_of("tests/lens.json", {}));
+}
+
+TEST(Options, QuietSilencesWarningsAndNotErrors) {
+    const TemporaryFolder folder;
+    const std::string scene = scene_file("assignment_08.json");
+    Arguments arguments = {"render", scene, "--size", "8x8", "--spp", "1", "-o", (folder / "x.ppm").string()};
+    const Outcome loud = orrery(arguments);
+    arguments.push_back("--quiet");
+    const Outcome quiet = orrery(arguments);
+    EXPECT_EQ(loud.output, quiet.output);
+    EXPECT_NE(loud.error, "");
+    EXPECT_EQ(quiet.error, "");
+    EXPECT_NE(orrery({"render", "missing.json", "--quiet"}).error, "");
+}
+
+}  // namespace
+}  // namespace orrery::test

@@ -1,0 +1,150 @@
+// Where images go, and what happens where they cannot.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+#include "world.hpp"
+
+namespace orrery::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Arguments = std::vector<std::string>;
+
+class Outputs : public ::testing::Test {
+protected:
+    Outputs() { fs::create_directory(folder / "scenes"); }
+
+    /// A scene in scenes/ that names this output, or none.
+    std::string scene(const std::string& output) const {
+        auto world = small_world();
+        if (!output.empty()) world["scene"]["renderer"]["output"] = output;
+        store(folder / "scenes/world.json", to_bytes(world.dump()));
+        return "scenes/world.json";
+    }
+    Outcome run(const Arguments& arguments, Surroundings surroundings = {}) const {
+        surroundings.folder = folder.path();
+        return orrery(arguments, surroundings);
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(Outputs, TheScenesOwnIsBesideTheSceneAndItsFolderIsMade) {
+    const Outcome outcome = run({"render", scene("../output/world.png")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    EXPECT_EQ(outcome.output, "output/world.png\n");
+    EXPECT_TRUE(fs::exists(folder / "output/world.png"));
+}
+
+TEST_F(Outputs, OnlyTheLastFolderIsMade) {
+    const Outcome outcome = run({"render", scene("../a/b/world.png")});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(folder.names(), ElementsAre("scenes"));
+}
+
+TEST_F(Outputs, AFolderOfTheCommandLineIsNotMade) {
+    const Outcome outcome = run({"render", scene(""), "-o", "missing/world.png"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.error, HasSubstr("missing"));
+    EXPECT_THAT(folder.names(), ElementsAre("scenes"));
+}
+
+TEST_F(Outputs, TheCommandLineReplacesTheScenesOwn) {
+    const Outcome outcome = run({"render", scene("../output/world.gif"), "-o", "a.ppm", "--output", "b.pfm"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    EXPECT_EQ(outcome.output, "a.ppm\nb.pfm\n");
+    EXPECT_THAT(folder.names(), ElementsAre("a.ppm", "b.pfm", "scenes"));
+}
+
+TEST_F(Outputs, ASceneWithoutOneNeedsAnOption) {
+    const Outcome outcome = run({"render", scene("")});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.error, HasSubstr("--output"));
+}
+
+TEST_F(Outputs, AnUnknownEndingInTheSceneIsNamedWithItsPlace) {
+    const Outcome outcome = run({"render", scene("../output/world.gif")});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.error, HasSubstr("scenes/world.json:/scene/renderer/output"));
+    EXPECT_THAT(folder.names(), ElementsAre("scenes"));
+}
+
+TEST_F(Outputs, OneThatCannotBeWrittenIsKnownBeforeRendering) {
+    fs::create_directory(folder / "folder.ppm");
+    store(folder / "file", to_bytes("not a folder"));
+    for (const char* output : {"folder.ppm", "file/x.ppm", "/proc/orrery/x.ppm", "nowhere/x.ppm"}) {
+        // For ever, were it rendered first.
+        const Outcome outcome = run({"render", scene(""), "-o", "good.ppm", "-o", output, "--spp", "4294967295"});
+        EXPECT_EQ(outcome.exit_code, 1) << output;
+        EXPECT_THAT(outcome.error, HasSubstr(output));
+        EXPECT_EQ(outcome.output, "");
+    }
+    for (const char* stats : {"nowhere/s.json", "folder.ppm", "/dev/full"})
+        EXPECT_EQ(run({"render", scene(""), "-o", "good.ppm", "--stats", stats, "--spp", "4294967295"}).exit_code, 1);
+    EXPECT_THAT(folder.names(), ElementsAre("file", "folder.ppm", "scenes"));
+}
+
+TEST_F(Outputs, AFullDiskLeavesThePreviousImage) {
+    for (const char* name : {"x.ppm", "x.png", "x.pfm", "x.exr"}) {
+        store(folder / name, to_bytes("previous"));
+        const Outcome outcome =
+            run({"render", scene(""), "-o", name, "--size", "64x64", "--spp", "1"}, {.largest_file = 300});
+        EXPECT_EQ(outcome.exit_code, 1) << name;
+        EXPECT_THAT(outcome.error, HasSubstr(name));
+        EXPECT_EQ(load(folder / name), "previous");
+    }
+    EXPECT_THAT(folder.names(), ElementsAre("scenes", "x.exr", "x.pfm", "x.png", "x.ppm"));
+}
+
+TEST_F(Outputs, TheOthersAreWrittenWhereOneFails) {
+    // 64 x 64 pixels are 12 KiB as PPM and 48 KiB as PFM.
+    const Outcome outcome = run({"render", scene(""), "-o", "x.pfm", "-o", "x.ppm", "--size", "64x64", "--spp", "1"},
+                                {.largest_file = 20000});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.output, "x.ppm\n");
+    EXPECT_THAT(folder.names(), ElementsAre("scenes", "x.ppm"));
+}
+
+TEST_F(Outputs, StandardOutputThatCannotBeWrittenIsAFailure) {
+    EXPECT_EQ(run({"render", scene(""), "-o", "x.ppm"}, {.output = "/dev/full"}).exit_code, 1);
+    EXPECT_EQ(run({"render", scene(""), "-o", "x.ppm", "--stats", "-"}, {.output = "/dev/full"}).exit_code, 1);
+    EXPECT_EQ(run({"info", scene("")}, {.output = "/dev/full"}).exit_code, 1);
+    EXPECT_EQ(run({"--help"}, {.output = "/dev/full"}).exit_code, 1);
+}
+
+TEST_F(Outputs, NothingMeantForAClosedStandardOutputLandsInAFile) {
+    const Outcome outcome = run({"render", scene(""), "-o", "x.ppm"}, {.output_closed = true});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(load(folder / "x.ppm").find("x.ppm"), std::string::npos);
+}
+
+TEST_F(Outputs, APipeThatNobodyReadsIsAFailure) {
+    int ends[2];
+    ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+    ::close(ends[0]);
+    const Outcome outcome =
+        run({"render", scene(""), "-o", "x.ppm", "--stats", "-"}, {.output = "/dev/fd/" + std::to_string(ends[1])});
+    ::close(ends[1]);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.error, HasSubstr("standard output"));
+}
+
+#if !defined(__SANITIZE_ADDRESS__)  // which reserves terabytes of address space and ends the program itself
+TEST_F(Outputs, OutOfMemoryIsAFailureWithAMessage) {
+    const Outcome outcome = run({"render", scene(""), "-o", "x.ppm", "--size", "4096x4096", "--spp", "1"},
+                                {.address_space = rlim_t{400} << 20});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.error, HasSubstr("out of memory"));
+    EXPECT_THAT(folder.names(), ElementsAre("scenes"));
+}
+#endif
+
+}  // namespace
+}  // namespace orrery::test

@@ -1,0 +1,103 @@
+// --stats: what a benchmark or a student reads.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace orrery::test {
+namespace {
+
+using ::testing::ElementsAre;
+using Json = nlohmann::json;
+
+TEST(Statistics, HaveEveryFieldWithASaneValue) {
+    const TemporaryFolder folder;
+    const std::string scene = scene_file("tests/diffuse_area.json");
+    const Outcome outcome = orrery(
+        {"render", scene, "-o", "x.ppm", "--stats", "s.json", "--threads", "2", "--seed", "9", "--size", "40x30"},
+        {.folder = folder.path()});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+    EXPECT_EQ(outcome.output, "x.ppm\n");
+    const Json s = Json::parse(load(folder / "s.json"));
+
+    EXPECT_EQ(s["scene"], scene);
+    EXPECT_EQ(s["images"], Json({"x.ppm"}));
+    EXPECT_EQ(s["version"], ORRERY_VERSION);
+    EXPECT_EQ(s["size"], Json({40, 30}));
+    EXPECT_EQ(s["seed"], 9);
+    EXPECT_EQ(s["precision"], "float");
+    EXPECT_EQ(s["threads"], 2);
+    EXPECT_EQ(s["samples_per_pixel"], 16);
+    EXPECT_EQ(s["dropped_samples"], 0);
+    EXPECT_TRUE(s["isa"].is_string());
+
+    const double seconds = s["seconds"];
+    const double rays = s["rays"]["closest"].get<double>() + s["rays"]["shadow"].get<double>();
+    EXPECT_GT(seconds, 0);
+    EXPECT_LT(seconds, 600);
+    EXPECT_GE(s["rays"]["closest"], 40 * 30 * 16);
+    EXPECT_GT(s["rays"]["shadow"], 0);
+    EXPECT_NEAR(s["rays_per_second"].get<double>(), rays / seconds, 1e-6 * rays / seconds);
+
+    const std::uint64_t bytes_per_ray = s["bytes_per_ray"];
+    EXPECT_GT(bytes_per_ray, 32u);
+    EXPECT_LT(bytes_per_ray, 4096u);
+    EXPECT_GT(s["wave_size"], 0);
+    EXPECT_LT(s["queue_bytes_per_thread"], 4 << 20);
+}
+
+TEST(Statistics, TimeTheFiveStages) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        orrery({"render", scene_file("tests/diffuse_area.json"), "-o", "x.ppm", "--threads", "1", "--stats", "-"},
+               {.folder = folder.path()});
+    const auto s = nlohmann::ordered_json::parse(outcome.output);
+    std::vector<std::string> names;
+    double sum = 0;
+    for (const auto& [name, seconds] : s["stage_seconds"].items()) {
+        names.push_back(name);
+        EXPECT_GT(seconds, 0) << name;
+        sum += seconds.get<double>();
+    }
+    EXPECT_THAT(names, ElementsAre("generate", "intersect", "shade", "shadow", "roulette"));
+    EXPECT_LE(sum, s["seconds"].get<double>()) << "one thread";
+}
+
+TEST(Statistics, NameThePlan) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        orrery({"render", scene_file("tests/lens.json"), "-o", "x.ppm", "--stats", "-"}, {.folder = folder.path()});
+    const Json s = Json::parse(outcome.output);
+    bool lens = false;
+    for (const Json& decision : s["plan"]) {
+        EXPECT_NE(decision["part"], "");
+        EXPECT_NE(decision["reason"], "");
+        lens = lens || (decision["part"] == "generate: lens" && decision["runs"] == true);
+    }
+    EXPECT_TRUE(lens);
+}
+
+TEST(Statistics, AlsoHoldOnAStandardOutputThatIsTheirsAlone) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        orrery({"render", scene_file("tests/depth.json"), "-o", "a.ppm", "-o", "b.png", "--stats", "-"},
+               {.folder = folder.path()});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(Json::parse(outcome.output)["images"], Json({"a.ppm", "b.png"}));
+}
+
+TEST(Statistics, AreWrittenWholeOrNotAtAll) {
+    const TemporaryFolder folder;
+    store(folder / "s.json", to_bytes("previous"));
+    const Outcome outcome =
+        orrery({"render", scene_file("tests/depth.json"), "--size", "2x2", "-o", "x.ppm", "--stats", "s.json"},
+               {.folder = folder.path(), .largest_file = 600});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(load(folder / "s.json"), "previous");
+    EXPECT_THAT(folder.names(), ElementsAre("s.json", "x.ppm"));
+}
+
+}  // namespace
+}  // namespace orrery::test

@@ -1,0 +1,135 @@
+// Command lines that are answered or refused before any scene is rendered.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "program.hpp"
+#include "world.hpp"
+
+namespace orrery::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using Arguments = std::vector<std::string>;
+
+const std::string any_scene = scene_file("tests/diffuse_area.json");
+
+TEST(Usage, HelpAndVersionGoToStandardOutput) {
+    for (const Arguments& asked : {Arguments{"--help"}, {"-h"}, {"render", "--help"}, {"info", "--help"}}) {
+        const Outcome help = orrery(asked);
+        EXPECT_EQ(help.exit_code, 0);
+        EXPECT_THAT(help.output, HasSubstr("Usage: orrery"));
+        EXPECT_EQ(help.error, "");
+    }
+    const Outcome version = orrery({"--version"});
+    EXPECT_EQ(version.exit_code, 0);
+    EXPECT_EQ(version.output, "orrery " ORRERY_VERSION "\n");
+}
+
+TEST(Usage, RenderHelpNamesEveryOptionItsDefaultAndAnExample) {
+    const std::string help = orrery({"render", "--help"}).output;
+    for (const char* option :
+         {"-o,--output FILE", "--integrator pt|wrt|depth", "--spp N", "--depth N", "--size WxH", "--seed N",
+          "--threads N", "--estimator uniform|stratified", "--transport naive|nee|mis", "--light-sampling area|cone",
+          "--roulette on|off", "--tonemap sigmoid|linear|none", "--isa auto|scalar|sse2|avx2|avx512",
+          "--precision float", "--stats FILE.json", "--quiet", "--wave-size N"})
+        EXPECT_THAT(help, HasSubstr(option));
+    EXPECT_GE(count_of("(default: ", help), 14u);
+    EXPECT_THAT(help, HasSubstr("Example"));
+    EXPECT_THAT(help, HasSubstr("orrery render scenes/"));
+}
+
+TEST(Usage, HelpFitsATerminal) {
+    std::istringstream lines(orrery({"render", "--help"}).output);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+/// Runs the command line where nothing may appear, and checks that it is refused. Returns the reason.
+std::string refusal_of(const Arguments& arguments) {
+    const TemporaryFolder folder;
+    const Outcome outcome = orrery(arguments, {.folder = folder.path()});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.output, "");
+    EXPECT_THAT(outcome.error, StartsWith("orrery: error: "));
+    EXPECT_TRUE(folder.names().empty());
+    return outcome.error;
+}
+
+/// As above, of a render with these options added.
+std::string refusal_with(const Arguments& options) {
+    Arguments arguments = {"render", any_scene, "-o", "x.ppm"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return refusal_of(arguments);
+}
+
+TEST(Usage, ACommandAndASceneAreNeeded) {
+    EXPECT_THAT(refusal_of({}), HasSubstr("expected a command, render or info"));
+    EXPECT_THAT(refusal_of({"paint", any_scene}), HasSubstr("expected a command, render or info"));
+    EXPECT_THAT(refusal_of({"render"}), HasSubstr("SCENE"));
+    EXPECT_THAT(refusal_of({"info"}), HasSubstr("SCENE"));
+    EXPECT_THAT(refusal_of({"render", any_scene, "another.json"}), HasSubstr("another.json"));
+}
+
+TEST(Usage, OptionsAreKnownAndHaveOneValue) {
+    EXPECT_THAT(refusal_with({"--bogus"}), HasSubstr("--bogus"));
+    EXPECT_THAT(refusal_with({"--spp"}), HasSubstr("--spp"));
+    EXPECT_THAT(refusal_with({"--spp", "4", "--spp", "5"}), HasSubstr("--spp"));
+    EXPECT_THAT(refusal_of({"info", any_scene, "-o", "x.ppm"}), HasSubstr("-o"));
+}
+
+TEST(Usage, NumbersAreWholeAndInRange) {
+    for (const char* text : {"0", "-1", "4294967296", "1e3", "0x10", "", " 4", "4 ", "+4", "4.0", "nan"})
+        EXPECT_THAT(refusal_with({"--spp", text}), AllOf(HasSubstr("--spp: found"), HasSubstr("1 to 4294967295")));
+    EXPECT_THAT(refusal_with({"--depth", "-1"}), HasSubstr("0 to 4294967295"));
+    EXPECT_THAT(refusal_with({"--integrator", "wrt", "--depth", "21"}), HasSubstr("0 to 20"));
+    EXPECT_THAT(refusal_with({"--seed", "4294967296"}), HasSubstr("0 to 4294967295"));
+    for (const char* text : {"0", "1025"}) EXPECT_THAT(refusal_with({"--threads", text}), HasSubstr("1 to 1024"));
+    for (const char* text : {"0", "1048577"})
+        EXPECT_THAT(refusal_with({"--wave-size", text}), HasSubstr("1 to 1048576"));
+}
+
+TEST(Usage, SizesAreTwoNumbers) {
+    for (const char* text : {"640", "0x480", "640x0", "65537x1", "640x480x3", "x", "", "640X480", "640 x 480"})
+        EXPECT_THAT(refusal_with({"--size", text}), AllOf(HasSubstr("WIDTHxHEIGHT"), HasSubstr("1 to 65536")));
+}
+
+TEST(Usage, ChoicesNameWhatThereIs) {
+    EXPECT_THAT(refusal_with({"--integrator", "PT"}), HasSubstr("pt|wrt|depth"));
+    EXPECT_THAT(refusal_with({"--estimator", "sobol"}), HasSubstr("uniform|stratified"));
+    EXPECT_THAT(refusal_with({"--transport", "bdpt"}), HasSubstr("naive|nee|mis"));
+    EXPECT_THAT(refusal_with({"--light-sampling", "uniform"}), HasSubstr("area|cone"));
+    EXPECT_THAT(refusal_with({"--roulette", "yes"}), HasSubstr("on|off"));
+    EXPECT_THAT(refusal_with({"--tonemap", "aces"}), HasSubstr("sigmoid|linear|none"));
+    EXPECT_THAT(refusal_with({"--isa", "avx9000"}), HasSubstr("supports: scalar"));
+    EXPECT_THAT(refusal_with({"--precision", "double"}), HasSubstr("float"));
+}
+
+TEST(Usage, OutputsHaveAKnownEndingAndAreDifferentFiles) {
+    for (const char* name : {"x.jpeg", "noending", "", ".png/"})
+        EXPECT_THAT(refusal_with({"-o", name}), HasSubstr(".ppm, .png, .pfm and .exr"));
+    EXPECT_THAT(refusal_with({"-o", "./x.ppm"}), HasSubstr("named twice"));
+    EXPECT_THAT(refusal_with({"--stats", "x.ppm"}), HasSubstr("named twice"));
+    EXPECT_THAT(refusal_with({"--stats", any_scene}), HasSubstr("named twice"));
+}
+
+TEST(Usage, MorePixelsThanMemoryAreRefusedWithTheFigure) {
+    const Outcome outcome = orrery({"render", any_scene, "-o", "/x.ppm", "--size", "65536x65536"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.error, HasSubstr("240.5 GB"));
+}
+
+TEST(Usage, AScenesOwnDepthMayBeTooMuchForWhitted) {
+    const TemporaryFolder folder;
+    auto world = small_world();
+    world["scene"]["renderer"]["depth"] = 21;
+    store(folder / "scene.json", to_bytes(world.dump()));
+    const Outcome outcome = orrery({"info", (folder / "scene.json").string(), "--integrator", "wrt"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.error, HasSubstr("the scene's depth"));
+}
+
+}  // namespace
+}  // namespace orrery::test
