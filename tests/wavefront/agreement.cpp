@@ -62,6 +62,11 @@ std::vector<Variant> other_variants(const Scene& scene) {
     return variants;
 }
 
+std::vector<Variant> finite_at_contact(std::vector<Variant> variants) {
+    std::erase_if(variants, [](const Variant& v) { return v.name.starts_with("nee, area"); });
+    return variants;
+}
+
 statistics::BlockImage blocks_of(const Scene& scene, const Variant& variant, const Budget& budget) {
     Scene varied = scene;
     variant.apply(varied.settings);

@@ -49,6 +49,9 @@ void record(const statistics::Comparison& comparison);
 /// Every variant against the reference (computed once), and against the first variant, which being measured with more
 /// precision than the reference tells smaller differences apart.
 void expect_agreement_of(const std::vector<Variant>& variants, const Scene& scene, const Budget& budget = {});
+/// Without the variants whose variance is infinite where a light touches a diffuse surface: next event
+/// estimation over the light's area, the cosine over squared distance of which has no square integral there.
+std::vector<Variant> finite_at_contact(std::vector<Variant> variants);
 /// With path_variants or other_variants, as the scene's integrator asks.
 void expect_agreement(const Scene& scene, const Budget& budget = {});
 

@@ -39,7 +39,7 @@ const std::vector<NamedLight> lights = {
      }},
     {"InsideAnEmitter",
      [](Scene& scene) {
-         add_lamp(scene, {0, 2, -2}, 9, {0.5, 0.7, 1});
+         add_lamp(scene, {0, -35, 0}, 60, {0.5, 0.7, 1});
      }},
 };
 
