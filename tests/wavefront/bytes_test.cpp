@@ -32,6 +32,8 @@ std::vector<Scene> scenes() {
         glass_only.settings.integrator = integrator;
         all.push_back(glass_only);
     }
+    all.push_back(crowd());
+    all.push_back(crowd(Integrator::whitted));
     return all;
 }
 
@@ -70,7 +72,7 @@ TEST_P(SameBytes, OnInstructionSetsThatRoundAlike) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SameBytes, testing::Range<std::size_t>(0, 7));
+INSTANTIATE_TEST_SUITE_P(Scenes, SameBytes, testing::Range<std::size_t>(0, 9));
 
 // Rays, too, are the same rays.
 TEST(Counters, AreTheSameForAnyWaveSizeAndNumberOfThreads) {

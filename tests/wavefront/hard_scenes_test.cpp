@@ -108,6 +108,14 @@ TEST(HardScene, ManyLights) {
     expect_agreement(scene, {.samples = 144, .reference_samples = 700});
 }
 
+TEST(HardScene, CrowdOfSpheres) {
+    for (const Integrator integrator : all_integrators) {
+        Scene scene = crowd(integrator);
+        if (integrator == Integrator::whitted) scene.settings.depth = 3;  // the reference follows every branch
+        expect_agreement(scene, {.samples = 100, .reference_samples = 300});
+    }
+}
+
 TEST(HardScene, SmallFarLight) {
     Scene scene = still_life(diffuse({0.7, 0.4, 0.2}), 3);
     add_lamp(scene, {30, 40, -30}, 0.05, {9e4, 8e4, 7e4});

@@ -42,6 +42,7 @@ std::vector<Case> cases() {
     all.back().scene.camera.aperture = 0;
     all.push_back({"PT, naive", everything()});
     all.back().scene.settings.transport = Transport::naive;
+    all.push_back({"PT, a crowd", crowd()});
     // Sizes from a bead to a planet, and the camera between them.
     Scene wide = picture({0, 0.01, -0.05}, {0, 0.005, 0}, 60, 6);
     add_sphere(wide, {0, -1e5, 0}, 1e5, diffuse(dvec3{0.7}));

@@ -78,6 +78,29 @@ inline Scene everything(Integrator integrator = Integrator::path_tracing) {
     return scene;
 }
 
+/// Spheres by the hundred, so that whatever the plan does about many of them is done: heaps and loners, beads and a
+/// floor, every material, some lights.
+inline Scene crowd(Integrator integrator = Integrator::path_tracing) {
+    Scene scene = picture({0, 2.5, -7}, {0, 0.8, 0}, 40, 5);
+    add_sphere(scene, {0, -200, 0}, 200, diffuse({0.8, 0.7, 0.6}));
+    const Material kinds[] = {diffuse({0.7, 0.4, 0.2}), glossy(0.8, 0.3), mirror(0.8), glass(0.9, 1.5),
+                              glass(0.9, 1.3, 0.2)};
+    std::uint32_t state = 7;  // any sequence will do
+    const auto uniform = [&state] { return (state = state * 1664525u + 1013904223u) / 4294967296.0; };
+    for (std::size_t i = 0; i < 300; ++i) {
+        const bool heap = i % 3 != 0;
+        const double spread = heap ? 0.8 : 5;
+        const dvec3 at{(uniform() - 0.5) * spread, uniform() * (heap ? 1.2 : 3), (uniform() - 0.5) * spread};
+        add_sphere(scene, at, 0.03 + 0.15 * uniform() * uniform(), kinds[i % 5]);
+        if (i % 50 == 0) scene.primitives.back().emission = dvec3{5, 4, 3};
+    }
+    add_lamp(scene, {2, 4, -2}, 1, {4, 3, 5});
+    scene.background = {0.1, 0.2, 0.3};
+    scene.settings.integrator = integrator;
+    scene.settings.samples = 4;
+    return scene;
+}
+
 inline constexpr std::initializer_list<Integrator> all_integrators = {Integrator::path_tracing, Integrator::whitted,
                                                                       Integrator::depth};
 
