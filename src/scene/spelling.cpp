@@ -14,6 +14,11 @@ char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + '
 /// edit_distance(), or some number >= `bound` as soon as the distance cannot be less. Adds the cells it filled to
 /// `work`.
 std::size_t bounded_distance(std::string_view a, std::string_view b, std::size_t bound, std::size_t& work) {
+    // A common beginning ("sphere number ...") changes no distance, and real ids are full of them.
+    while (!a.empty() && !b.empty() && lower(a[0]) == lower(b[0])) {
+        a.remove_prefix(1);
+        b.remove_prefix(1);
+    }
     a = a.substr(0, compared_bytes);
     b = b.substr(0, compared_bytes);
     ++work;

@@ -8,7 +8,7 @@
 namespace orrery {
 
 /// Insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`; letter case is free.
-/// Only the first 64 bytes of each count, which bounds the work.
+/// Of what follows the common beginning only the first 64 bytes count, which bounds the work.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// Finds nearest words within a budget of work. A file of many faults and many ids costs their product, so that
@@ -23,7 +23,7 @@ public:
     std::string_view likely(std::string_view word, std::span<const std::string_view> known);
 
 private:
-    std::size_t budget_ = 100'000'000;  ///< in cells of the distance table: about a second
+    std::size_t budget_ = 30'000'000;  ///< in cells of the distance table: a fraction of a second
 };
 
 }  // namespace orrery

@@ -21,6 +21,7 @@ TEST(SpellingTest, DistanceCountsSlips) {
     EXPECT_EQ(edit_distance("glaass", "glass"), 1u);
     EXPECT_EQ(edit_distance("gloss", "glass"), 1u);
     EXPECT_EQ(edit_distance("galss", "glass"), 1u);
+    EXPECT_EQ(edit_distance("aab", "aba"), 1u);
     EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
     EXPECT_EQ(edit_distance("", "abc"), 3u);
     EXPECT_EQ(edit_distance("abc", ""), 3u);
