@@ -3,3 +3,6 @@
 #pragma once
 
 #define ORRERY_INLINE [[gnu::always_inline]] inline
+
+/// The same for a lambda, between its parameters and its body.
+#define ORRERY_INLINE_LAMBDA __attribute__((always_inline))

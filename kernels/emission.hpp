@@ -22,8 +22,8 @@ ORRERY_INLINE void add_radiance(const SlotTable<typename V::Real>& slots, const 
                                 const Vec3<typename V::F>& radiance, std::uint32_t chosen) {
     alignas(64) typename V::Word at[V::count];
     alignas(64) typename V::Real r[V::count], g[V::count], b[V::count];
-    store(at, slot);
-    store3<V>(r, g, b, radiance);
+    save(at, slot);
+    save3<V>(r, g, b, radiance);
     for (; chosen != 0; chosen &= chosen - 1) {
         const int lane = std::countr_zero(chosen);
         typename V::Real* const sum = slots.radiance + std::size_t{4} * at[lane];

@@ -47,17 +47,17 @@ void generate(const CameraTable<typename V::Real>& camera, const SlotTable<typen
         const F y = mul_add(random.y, F(camera.cell_height), load<F>(slots.plane_y + i));
         Vec3<F> o, d;
         camera_ray<V, has_lens>(camera, x, y, random, o, d);
-        store3<V>(rays.ox + i, rays.oy + i, rays.oz + i, o);
-        store3<V>(rays.dx + i, rays.dy + i, rays.dz + i, d);
-        store3<V>(rays.tr + i, rays.tg + i, rays.tb + i, {one, one, one});
+        save3<V>(rays.ox + i, rays.oy + i, rays.oz + i, o);
+        save3<V>(rays.dx + i, rays.dy + i, rays.dz + i, d);
+        save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, {one, one, one});
         // What the camera sees of a light competes with no light sample.
-        if (rays.pdf != nullptr) store(rays.pdf + i, F(std::numeric_limits<typename V::Real>::infinity()));
-        if (rays.eta_scale != nullptr) store(rays.eta_scale + i, one);
-        store(rays.left + i, U(Word{no_sphere}));
-        store(rays.slot + i, lane + U(Word{i}));
-        store(rays.pixel + i, pixel);
-        store(rays.sample + i, sample);
-        for (std::uint32_t c = 0; c < 4; ++c) store(slots.radiance + 4 * i + c * V::count, zero);
+        if (rays.pdf != nullptr) save(rays.pdf + i, F(std::numeric_limits<typename V::Real>::infinity()));
+        if (rays.eta_scale != nullptr) save(rays.eta_scale + i, one);
+        save(rays.left + i, U(Word{no_sphere}));
+        save(rays.slot + i, lane + U(Word{i}));
+        save(rays.pixel + i, pixel);
+        save(rays.sample + i, sample);
+        for (std::uint32_t c = 0; c < 4; ++c) save(slots.radiance + 4 * i + c * V::count, zero);
     }
 }
 

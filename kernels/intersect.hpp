@@ -44,12 +44,26 @@ ORRERY_INLINE Closest<V> closest_hit(const SphereTable<typename V::Real>& sphere
         best.num = choose(closer, t, best.num);
         best.id = choose(closer, left, best.id);
     }
-    for (std::uint32_t k = 0; k < spheres.count; ++k) {
+    // 1 / t of the closest hit so far: most spheres are farther or missed by all lanes, and cost no square root.
+    F inverse = best.den / best.num;
+    const auto test = [&](std::uint32_t k) ORRERY_INLINE_LAMBDA {
         const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
-        const auto candidate = line.disc > zero && (line.b > zero || line.c < zero) && !words_equal(left_id, U(k));
-        // Most spheres miss all lanes of a coherent wave: the square root is worth a branch.
-        if (any(candidate)) keep_closer<V>(best, first_root<V>(line, root(line.disc), t_min, candidate), k);
-    }
+        const auto not_left = !words_equal(left_id, U(k));
+        typename V::M candidate;
+        if constexpr (std::is_same_v<Start, FromOrigin>) {
+            candidate = not_left && (near_root_before<V>(line, inverse) || (line.c <= zero && line.disc > zero));
+        } else {
+            candidate = not_left && line.disc > zero;
+        }
+        if (any(candidate)) {
+            keep_closer<V>(best, first_root<V>(line, root(line.disc), t_min, candidate), k);
+            inverse = best.den / best.num;
+        }
+        return false;
+    };
+    // A hair less, so that the rounding of the division hides no equal hit.
+    const auto limit = [&]() ORRERY_INLINE_LAMBDA { return inverse * F(0.99999f); };
+    for_spheres_near<V>(spheres, o, d, limit, test);
     return best;
 }
 
@@ -72,22 +86,23 @@ ORRERY_INLINE typename V::M any_hit(const SphereTable<typename V::Real>& spheres
         const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
         blocked = blocked || (inward && t * inverse_t_max < F(1));
     }
-    for (std::uint32_t k = 0; k < spheres.count; ++k) {
-        if (k == skip) continue;
+    const auto test = [&](std::uint32_t k) ORRERY_INLINE_LAMBDA {
+        if (k == skip) return false;
         const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
-        const auto candidate = line.disc > zero && !words_equal(left_id, U(k));
+        const auto not_left = !words_equal(left_id, U(k));
+        auto rest = not_left && line.disc > zero;
         if constexpr (from_origin) {
-            const F g = mul_add(line.c, inverse_t_max, zero - line.b);
-            const auto near_root = line.b > zero && line.c > zero && (g < zero || g * g < line.disc);
-            blocked = blocked || (candidate && near_root);
+            blocked = blocked || (not_left && near_root_before<V>(line, inverse_t_max));
+            rest = rest && line.c <= zero;
         }
-        const auto rest = from_origin ? candidate && line.c <= zero : candidate && (line.b > zero || line.c < zero);
         if (any(rest)) {
             const auto first = first_root<V>(line, root(line.disc), t_min, rest);
             blocked = blocked || (first.exists && first.num * inverse_t_max < first.den);
         }
-        if (all(blocked)) break;
-    }
+        return all(blocked);
+    };
+    const auto limit = [&]() ORRERY_INLINE_LAMBDA { return inverse_t_max; };
+    for_spheres_near<V>(spheres, o, d, limit, test);
     return blocked && live;
 }
 
@@ -104,8 +119,8 @@ void intersect(const SphereTable<typename V::Real>& spheres, const RayQueue<type
         const auto live = first_lanes<V>(count - i);
         const U left = choose(live, load<U>(rays.left + i), U(no_sphere));
         const auto best = closest_hit<V>(spheres, o, d, left, FromOrigin{}, infinity);
-        store(hits.t + i, best.num / best.den);
-        store(hits.id + i, choose(live, best.id, U(no_sphere)));
+        save(hits.t + i, best.num / best.den);
+        save(hits.id + i, choose(live, best.id, U(no_sphere)));
     }
 }
 

@@ -14,8 +14,10 @@ ORRERY_INLINE T load(const Element* from) {
     }
 }
 
+/// `to` needs no alignment. Not called store: xsimd's function of that name, which argument-dependent lookup would
+/// prefer, wants an aligned address.
 template <class Element, class T>
-ORRERY_INLINE void store(Element* to, const T& value) {
+ORRERY_INLINE void save(Element* to, const T& value) {
     if constexpr (std::is_arithmetic_v<T>) {
         *to = value;
     } else {

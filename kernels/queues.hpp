@@ -18,7 +18,7 @@ namespace orrery::kernels {
 /// The widest vector any kernel uses, in numbers; every capacity is a multiple.
 inline constexpr std::uint32_t widest = 16;
 
-constexpr std::uint32_t round_up(std::uint32_t n) { return (n + widest - 1) / widest * widest; }
+ORRERY_INLINE constexpr std::uint32_t round_up(std::uint32_t n) { return (n + widest - 1) / widest * widest; }
 
 /// Rays in flight, one bounce number for all (Whitted: one live ray per slot).
 template <class Real>
@@ -136,9 +136,11 @@ struct Runs {
 
 /// What a run of `count` records takes of a queue: compress writes whole vectors, up to one less than `widest` records
 /// behind the last, and the next run begins on a whole vector behind that.
-constexpr std::uint32_t padded_run(std::uint32_t count) { return round_up(count + widest - 1); }
+ORRERY_INLINE constexpr std::uint32_t padded_run(std::uint32_t count) { return round_up(count + widest - 1); }
 
 /// What a ray queue must hold for a wave of `slots`, whichever way it is sorted.
-constexpr std::uint32_t ray_capacity(std::uint32_t slots) { return round_up(slots) + scattering_count * padded_run(1); }
+ORRERY_INLINE constexpr std::uint32_t ray_capacity(std::uint32_t slots) {
+    return round_up(slots) + scattering_count * padded_run(1);
+}
 
 }  // namespace orrery::kernels

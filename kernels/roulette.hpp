@@ -28,7 +28,7 @@ std::uint32_t roulette(const SlotTable<typename V::Real>& slots, std::uint32_t s
                 const F q = min(carried / scale, F(1));
                 const U slot = choose(in_run, load<U>(rays.slot + i), U(0u));
                 alive = alive && random_for<V>(slots, rays, i, key, bounce, slot).x < q;
-                store3<V>(rays.tr + i, rays.tg + i, rays.tb + i, throughput * (F(1) / q));
+                save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, throughput * (F(1) / q));
             }
             const std::uint32_t chosen = bits(alive);
             if (chosen == 0) continue;

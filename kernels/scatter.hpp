@@ -104,17 +104,17 @@ void scatter(const ScatterContext<typename V::Real>& context, Range run, const R
         const auto in = arriving<V>(context.spheres, rays, hits, i, run.count - n);
         const auto out = scatter_at<V, kind>(context, in.vertex, in.direction, rays, i, in.slot);
 
-        store3<V>(rays.ox + i, rays.oy + i, rays.oz + i, in.vertex.position);
-        store3<V>(rays.dx + i, rays.dy + i, rays.dz + i, out.direction);
+        save3<V>(rays.ox + i, rays.oy + i, rays.oz + i, in.vertex.position);
+        save3<V>(rays.dx + i, rays.dy + i, rays.dz + i, out.direction);
         // Misses leave with no throughput.
-        store3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(in.live, in.throughput * out.weight, none));
-        store(rays.left + i, in.vertex.sphere | out.side);
-        if (rays.pdf != nullptr) store(rays.pdf + i, out.pdf);
+        save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(in.live, in.throughput * out.weight, none));
+        save(rays.left + i, in.vertex.sphere | out.side);
+        if (rays.pdf != nullptr) save(rays.pdf + i, out.pdf);
         if constexpr (kind == Scattering::dielectric || kind == Scattering::translucent) {
-            if (rays.eta_scale != nullptr) store(rays.eta_scale + i, load<F>(rays.eta_scale + i) * out.eta_scale);
+            if (rays.eta_scale != nullptr) save(rays.eta_scale + i, load<F>(rays.eta_scale + i) * out.eta_scale);
         }
         if constexpr (kind == Scattering::glossy || kind == Scattering::translucent) {
-            if (lobes.x != nullptr) store3<V>(lobes.x + i, lobes.y + i, lobes.z + i, out.lobe);
+            if (lobes.x != nullptr) save3<V>(lobes.x + i, lobes.y + i, lobes.z + i, out.lobe);
         }
     }
 }

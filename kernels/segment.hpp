@@ -56,8 +56,8 @@ void intersects_columns(const SphereTable<typename V::Real>& spheres, const Segm
         const auto best = closest_hit<V>(spheres, load3<V>(segments.ox + i, segments.oy + i, segments.oz + i),
                                          load3<V>(segments.dx + i, segments.dy + i, segments.dz + i), U(no_sphere),
                                          load<F>(segments.t_min + i), load<F>(segments.t_max + i));
-        store(hits.t + i, best.num / best.den);
-        store(hits.id + i, best.id);
+        save(hits.t + i, best.num / best.den);
+        save(hits.id + i, best.id);
     }
 }
 
@@ -72,7 +72,7 @@ void is_occluded_columns(const SphereTable<typename V::Real>& spheres, const Seg
             any_hit<V>(spheres, load3<V>(segments.ox + i, segments.oy + i, segments.oz + i),
                        load3<V>(segments.dx + i, segments.dy + i, segments.dz + i), U(no_sphere),
                        load<F>(segments.t_min + i), load<F>(segments.t_max + i), no_sphere, first_lanes<V>(count - i));
-        store(occluded + i, choose(blocked, U(1u), U(0u)));
+        save(occluded + i, choose(blocked, U(1u), U(0u)));
     }
 }
 

@@ -62,10 +62,10 @@ ORRERY_INLINE Vec3<typename V::F> lookup3(const typename V::Real* x, const typen
     return {lookup<F>(x, index, size), lookup<F>(y, index, size), lookup<F>(z, index, size)};
 }
 template <class V>
-ORRERY_INLINE void store3(typename V::Real* x, typename V::Real* y, typename V::Real* z, const Vec3<typename V::F>& v) {
-    store(x, v.x);
-    store(y, v.y);
-    store(z, v.z);
+ORRERY_INLINE void save3(typename V::Real* x, typename V::Real* y, typename V::Real* z, const Vec3<typename V::F>& v) {
+    save(x, v.x);
+    save(y, v.y);
+    save(z, v.z);
 }
 
 }  // namespace orrery::kernels

@@ -24,7 +24,7 @@ void expire(const SlotTable<typename V::Real>& slots, std::uint32_t depth, std::
         const auto alive = words_equal(gather<U>(slots.node, slot) >> static_cast<int>(depth), U(0u));
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
         const Vec3<F> none{F(0), F(0), F(0)};
-        store3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(alive, throughput, none));
+        save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(alive, throughput, none));
     }
 }
 
@@ -63,19 +63,19 @@ void branch(const ScatterContext<typename V::Real>& context, Range run, const Ra
         const U mirror_left = vertex.sphere | vertex.side;
         const U node = gather<U>(context.slots.node, in.slot) << 1;
 
-        store3<V>(rays.ox + i, rays.oy + i, rays.oz + i, vertex.position);
-        store3<V>(rays.dx + i, rays.dy + i, rays.dz + i, choose(continues, through, mirror));
-        store3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(continues, transmitted, mirrored));
-        store(rays.left + i, choose(continues, mirror_left ^ U(inside_bit), mirror_left));
+        save3<V>(rays.ox + i, rays.oy + i, rays.oz + i, vertex.position);
+        save3<V>(rays.dx + i, rays.dy + i, rays.dz + i, choose(continues, through, mirror));
+        save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(continues, transmitted, mirrored));
+        save(rays.left + i, choose(continues, mirror_left ^ U(inside_bit), mirror_left));
 
         alignas(64) Word slot_of[V::count], node_of[V::count], left_of[V::count];
         alignas(64) Real numbers[9][V::count];
-        store(slot_of, in.slot);
-        store(node_of, node);
-        store(left_of, mirror_left);
-        store3<V>(numbers[0], numbers[1], numbers[2], vertex.position);
-        store3<V>(numbers[3], numbers[4], numbers[5], mirror);
-        store3<V>(numbers[6], numbers[7], numbers[8], mirrored);
+        save(slot_of, in.slot);
+        save(node_of, node);
+        save(left_of, mirror_left);
+        save3<V>(numbers[0], numbers[1], numbers[2], vertex.position);
+        save3<V>(numbers[3], numbers[4], numbers[5], mirror);
+        save3<V>(numbers[6], numbers[7], numbers[8], mirrored);
         for (std::uint32_t left = bits(in.live); left != 0; left &= left - 1) {
             const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
             context.slots.node[slot_of[lane]] = node_of[lane] + (bits(continues) >> lane & 1u);

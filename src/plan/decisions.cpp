@@ -28,7 +28,11 @@ std::vector<Decision> Plan::decisions() const {
     const auto decide = [&](const char* part, bool runs, std::string reason) {
         list.push_back({part, runs, std::move(reason)});
     };
-    decide("intersect: linear", true, fmt::format("{} spheres", spheres_.count));
+    const auto groups = spheres_.groups.count;
+    decide("intersect: groups", groups != 0,
+           groups != 0 ? fmt::format("{} spheres: {} alone, the others in {} groups", spheres_.count,
+                                     spheres_.groups.ungrouped, groups)
+                       : fmt::format("{} spheres: one loop is faster below {}", spheres_.count, group_crossover));
     decide("generate: lens", n.lens,
            n.lens ? fmt::format("aperture {}", scene_.camera.aperture) : "the camera is a pinhole");
     if (n.integrator == Integrator::depth) {

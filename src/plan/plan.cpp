@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "kernels/queues.hpp"
+#include "plan/require_valid.hpp"
 
 namespace orrery {
 
@@ -45,12 +46,7 @@ constexpr std::uint32_t bit(Scattering kind) { return 1u << static_cast<unsigned
 
 Plan::Plan(Scene scene) : scene_(std::move(scene)) {
     const RenderSettings& s = scene_.settings;
-    if (s.width == 0 || s.height == 0 || s.samples == 0)
-        throw std::invalid_argument("an image needs pixels and samples");
-    if (s.integrator == Integrator::whitted && s.depth > 20)
-        throw std::invalid_argument("Whitted ray tracing goes to depth 20");
-    if (scene_.materials.size() > kernels::surface_material_mask)
-        throw std::invalid_argument("more than 2^24 materials");
+    require_valid(scene_);
     if (s.estimator == Estimator::stratified) {
         strata_ = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(s.samples)));
     }
@@ -108,8 +104,9 @@ void Plan::plan_surfaces() {
         material_columns_[7].push_back(static_cast<float>(m.roughness));
     }
     std::uint32_t index = 0;
-    for (const Primitive& p : scene_.primitives) {
-        if (p.material >= scene_.materials.size()) throw std::invalid_argument("a primitive names no material");
+    grouping_ = group_spheres(scene_.primitives);
+    for (const std::uint32_t place : grouping_.order) {
+        const Primitive& p = scene_.primitives[place];
         push3(sphere_columns_, 0, p.centre);
         sphere_columns_[3].push_back(static_cast<float>(p.radius));
         const Scattering kind = scattering_of(scene_.materials[p.material], settings().integrator);
@@ -137,7 +134,9 @@ void Plan::plan_surfaces() {
                 sphere_columns_[2].data(),
                 sphere_columns_[3].data(),
                 sphere_words_[0].data(),
-                sphere_words_[1].data()};
+                sphere_words_[1].data(),
+                {static_cast<std::uint32_t>(grouping_.end.size()), grouping_.ungrouped, grouping_.cx.data(),
+                 grouping_.cy.data(), grouping_.cz.data(), grouping_.radius2.data(), grouping_.end.data()}};
     materials_ = {static_cast<std::uint32_t>(scene_.materials.size()),
                   material_columns_[0].data(),
                   material_columns_[1].data(),

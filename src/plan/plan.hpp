@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernels/tables.hpp"
+#include "plan/group.hpp"
 #include "scene/scene.hpp"
 
 namespace orrery {
@@ -85,6 +86,7 @@ private:
     kernels::EmissionTable<float> emission_;
     std::vector<kernels::PointLight<float>> point_lights_;
     std::vector<kernels::AreaLight<float>> area_lights_;
+    Grouping grouping_;
     std::array<std::vector<float>, 4> sphere_columns_;        // cx cy cz radius
     std::array<std::vector<std::uint32_t>, 2> sphere_words_;  // surface light
     std::array<std::vector<float>, 8> material_columns_;      // rho, tau, eta, roughness
