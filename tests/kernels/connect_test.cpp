@@ -1,0 +1,259 @@
+// Stage `shade`, last step: every shadow ray against the estimator of spec section 4 in double.
+#include "geometry.hpp"
+#include "kernel_test.hpp"
+#include "light_reference.hpp"
+#include "numbers.hpp"
+#include "optics_reference.hpp"
+#include "owned.hpp"
+
+namespace orrery::kernel_tests {
+namespace {
+
+using kernels::inside_bit;
+using kernels::LightStrategy;
+using kernels::no_sphere;
+using kernels::Response;
+
+constexpr std::uint32_t begin = 16, light_sphere = 3;
+
+class ConnectTest : public KernelTest {
+protected:
+    /// Three balls to stand on, a light, and a ball within the light.
+    const World world{{{glm::dvec3(0, 0, 0), 1, 0},
+                       {glm::dvec3(3, -1, 2), 0.3, 1},
+                       {glm::dvec3(-2, 4, 1), 2, 2},
+                       {glm::dvec3(4, 4, -3), 1.5, 0, 0},
+                       {glm::dvec3(4.2, 4, -3), 0.25, 1}},
+                      {{.beta = 0.3}, {.beta = 0.05}, {.beta = 0.9}},
+                      {{5, 6, 7}}};
+    const kernels::AreaLight<float> area_light{light_sphere,        world.spheres.cx[3],     world.spheres.cy[3],
+                                               world.spheres.cz[3], world.spheres.radius[3], world.emission.r[0],
+                                               world.emission.g[0], world.emission.b[0]};
+
+    struct Wave {
+        Rays rays;
+        Lobes lobes;
+        std::uint32_t count;
+    };
+    /// Vertices as `scatter` leaves them, both sides; every fifth dead.
+    Wave wave_of(std::uint32_t count) const {
+        const std::uint32_t capacity = begin + kernels::padded_run(count) + 16;
+        Wave w{Rays(capacity), Lobes(capacity), count};
+        Numbers random(count);
+        for (std::uint32_t i = begin; i < begin + count; ++i) {
+            const std::uint32_t k = random.below(world.spheres.count);
+            const bool inward = i % 3 == 0;
+            const glm::dvec3 outward = random.direction(), n = inward ? -outward : outward;
+            put_ray(*w.rays, i, world.centre(k) + world.radius(k) * outward, random.direction(),
+                    inward ? k | inside_bit : k, i % 5 == 4 ? glm::dvec3(0) : random.colour());
+            w.rays->slot[i] = 5000 - i;
+            glm::dvec3 lobe = random.direction();
+            if (glm::dot(lobe, n) < 0) lobe = -lobe;
+            // Half of the lobes look where the light is, or a narrow one would never see it.
+            const glm::dvec3 to = glm::normalize(world.centre(light_sphere) - origin_of(*w.rays, i));
+            if (i % 2 == 0 && glm::dot(to, n) > 0) lobe = glm::normalize(to + 0.03 * random.direction());
+            put3(w.lobes->x, w.lobes->y, w.lobes->z, i, lobe);
+        }
+        return w;
+    }
+    kernels::ConnectContext<float> context(const Slots& slots, bool competing = false) const {
+        return {world.spheres, world.materials, *slots, 21, 4, 2, competing};
+    }
+
+    /// A vertex the way the textbook sees it.
+    struct Vertex {
+        glm::dvec3 p, n, lobe, throughput;
+        std::uint32_t sphere;
+        bool inward;
+        double beta;
+        double density(Response response, const glm::dvec3& d) const {
+            return response == Response::diffuse ? std::max(0.0, glm::dot(d, n)) / pi
+                                                 : glossy_density(lobe, n, beta, d);
+        }
+        /// How far rounding may move that density, relatively; infinite where it may also be zero.
+        double slack(Response response, const glm::dvec3& d) const {
+            const double cosine = glm::dot(d, n);
+            if (std::abs(cosine) < 1e-5) return std::numeric_limits<double>::infinity();
+            if (response == Response::diffuse) return 2e-5 + 4e-6 / std::abs(cosine);
+            const double sine = sine_between(lobe, d), side = std::max(glm::dot(lobe, n), 0.0) / beta;
+            if (std::abs(sine - beta) < 1e-4 * beta) return std::numeric_limits<double>::infinity();
+            return 2e-5 / (1 + side) + 20 * glossy_slack(lobe, beta, d);
+        }
+    };
+    Vertex vertex(const Wave& w, std::uint32_t i) const {
+        Vertex v;
+        v.sphere = w.rays->left[i] & no_sphere;
+        v.inward = (w.rays->left[i] & inside_bit) != 0;
+        v.p = origin_of(*w.rays, i);
+        v.n = (v.p - world.centre(v.sphere)) / world.radius(v.sphere) * (v.inward ? -1.0 : 1.0);
+        v.lobe = get3(w.lobes->x, w.lobes->y, w.lobes->z, i);
+        v.throughput = throughput_of(*w.rays, i);
+        v.beta = world.materials.roughness[world.spheres.surface[v.sphere] & kernels::surface_material_mask];
+        return v;
+    }
+
+    /// Runs a connecting stage, checks what it touches, and that fused instruction sets agree.
+    template <class Stage>
+    Shadows connected(const Wave& w, std::uint32_t& size, Stage&& stage) const {
+        Shadows queue(kernels::round_up(w.count) + kernels::widest);
+        const Shadows before = queue;
+        const Wave same = w;
+        size = stage(stages, w, queue);
+        EXPECT_LE(size, w.count);
+        EXPECT_TRUE(queue.untouched_but(before, 0, static_cast<std::ptrdiff_t>(size) + kernels::widest - 1));
+        EXPECT_TRUE(w.rays.same_as(same.rays, -Rays::guard, w.rays.capacity() + Rays::guard)) << "only read";
+        if (exact()) {
+            Shadows other = before;
+            EXPECT_EQ(stage(scalar, w, other), size);
+            EXPECT_TRUE(queue.same_as(other, 0, size));
+        }
+        return queue;
+    }
+
+    /// Common to every entry: whose it is.
+    static void expect_belongs(const Shadows& queue, std::uint32_t at, const Wave& w, std::uint32_t i) {
+        ASSERT_EQ(queue->left[at], w.rays->left[i]);
+        ASSERT_EQ(get3(queue->ox, queue->oy, queue->oz, at), origin_of(*w.rays, i));
+        ASSERT_NEAR(glm::length(get3(queue->dx, queue->dy, queue->dz, at)), 1, 4e-7);
+    }
+
+    void expect_point_light_agrees(Response response, std::uint32_t count) const {
+        const Slots slots(16, {"node"});
+        const kernels::PointLight<float> light{2, -3, 4, 10, 20, 30};
+        const Wave w = wave_of(count);
+        std::uint32_t size = 0;
+        const Shadows queue = connected(w, size, [&](const auto& table, const Wave& in, const Shadows& to) {
+            return table.connect_point[static_cast<std::size_t>(response)](context(slots), light, {begin, in.count},
+                                                                           *in.rays, *in.lobes, *to);
+        });
+        std::uint32_t at = 0;
+        for (std::uint32_t i = begin; i < begin + count; ++i) {
+            const Vertex v = vertex(w, i);
+            const glm::dvec3 to = glm::dvec3(2, -3, 4) - v.p, d = glm::normalize(to);
+            const double slack = v.slack(response, d), density = v.density(response, d);
+            const bool alive = v.throughput != glm::dvec3(0);
+            const bool present = at < size && queue->slot[at] == w.rays->slot[i];
+            if (slack < 1 || !alive) {
+                ASSERT_EQ(present, alive && density > 0) << "vertex " << i;
+            }
+            if (!present) continue;
+            expect_belongs(queue, at, w, i);
+            ASSERT_LT(glm::length(get3(queue->dx, queue->dy, queue->dz, at) - d), 1e-6);
+            ASSERT_NEAR(queue->inverse_t_max[at], 1 / glm::length(to), 1e-6 / glm::length(to));
+            const glm::dvec3 wanted = v.throughput * glm::dvec3(10, 20, 30) * density / glm::dot(to, to);
+            if (slack < 1) {
+                ASSERT_LT(glm::length(get3(queue->r, queue->g, queue->b, at) - wanted), slack * glm::length(wanted));
+            }
+            ++at;
+        }
+        EXPECT_EQ(at, size);
+        if (count == 3001) {
+            EXPECT_GT(size, response == Response::diffuse ? 800u : 30u);
+        }
+    }
+
+    void expect_area_light_agrees(Response response, LightStrategy strategy, bool competing,
+                                  std::uint32_t count) const {
+        const Slots slots(16, {"node"});
+        const Wave w = wave_of(count);
+        std::uint32_t size = 0;
+        const Shadows queue = connected(w, size, [&](const auto& table, const Wave& in, const Shadows& to) {
+            return table.connect_area[static_cast<std::size_t>(strategy)][static_cast<std::size_t>(response)](
+                context(slots, competing), area_light, {begin, in.count}, *in.rays, *in.lobes, *to);
+        });
+        const glm::dvec3 centre = world.centre(light_sphere), emitted(5, 6, 7);
+        const double radius = world.radius(light_sphere);
+        std::uint32_t at = 0, own = 0;
+        for (std::uint32_t i = begin; i < begin + count && at < size; ++i) {
+            if (queue->slot[at] != w.rays->slot[i]) continue;
+            const Vertex v = vertex(w, i);
+            ASSERT_NE(v.throughput, glm::dvec3(0)) << "a dead ray";
+            ASSERT_TRUE(v.sphere != light_sphere || v.inward) << "a sphere does not shine on its own outside";
+            own += v.sphere == light_sphere;
+            expect_belongs(queue, at, w, i);
+            const glm::dvec3 d = get3(queue->dx, queue->dy, queue->dz, at);
+            const double t = 1 / static_cast<double>(queue->inverse_t_max[at]);
+            const bool inside = v.sphere == light_sphere || glm::length(v.p - centre) < radius;
+            const Roots r = roots(v.p, d, centre, radius);
+            // The segment ends on the side of the light that is seen. Where the light's outline is grazed, or sampled
+            // from a point of its own surface, rounding moves that by much.
+            const double ill = 16 * 0x1p-24 * (r.reach + radius * radius / std::max(r.far - r.near, 1e-9));
+            if (r.real && ill < 0.01 * t) {
+                ASSERT_NEAR(t, inside ? r.far : r.near, 1e-6 * t + ill);
+                const double density = v.density(response, d);
+                double ratio = density / light_density(inside ? LightStrategy::area : strategy, v.p, d, centre, radius);
+                if (inside) {
+                    const glm::dvec3 n = (v.p + r.far * d - centre) / radius;
+                    ratio = density * 4 * pi * radius * radius * glm::dot(n, d) / (r.far * r.far);
+                }
+                if (competing) ratio /= 1 + ratio;
+                const double half_chord = (r.far - r.near) / 2;
+                const double slack =
+                    v.slack(response, d) + 16 * 0x1p-24 * (1 + t * radius / (half_chord * half_chord)) + 2 * ill / t;
+                const glm::dvec3 wanted = v.throughput * emitted * ratio;
+                if (slack < 1) {
+                    ASSERT_LT(glm::length(get3(queue->r, queue->g, queue->b, at) - wanted), slack * glm::length(wanted))
+                        << "vertex " << i << " of sphere " << v.sphere;
+                }
+            }
+            ++at;
+        }
+        EXPECT_EQ(at, size) << "entries out of order";
+        if (count == 3001) {
+            EXPECT_GT(size, 30u);
+            EXPECT_GT(own, 10u) << "from within the light";
+        }
+    }
+};
+
+const std::vector<std::uint32_t> counts{0, 1, 3, 15, 16, 17, 125, 3001};
+
+TEST_P(ConnectTest, PointLightOnDiffuse) {
+    for (const std::uint32_t count : counts) expect_point_light_agrees(Response::diffuse, count);
+}
+TEST_P(ConnectTest, PointLightOnGlossy) {
+    for (const std::uint32_t count : counts) expect_point_light_agrees(Response::glossy, count);
+}
+TEST_P(ConnectTest, AreaLightOnDiffuse) {
+    for (const std::uint32_t count : counts)
+        for (const auto strategy : {LightStrategy::area, LightStrategy::cone})
+            for (const bool competing : {false, true})
+                expect_area_light_agrees(Response::diffuse, strategy, competing, count);
+}
+TEST_P(ConnectTest, AreaLightOnGlossy) {
+    for (const std::uint32_t count : counts)
+        for (const auto strategy : {LightStrategy::area, LightStrategy::cone})
+            for (const bool competing : {false, true})
+                expect_area_light_agrees(Response::glossy, strategy, competing, count);
+}
+
+TEST_P(ConnectTest, DeadVerticesConnectToNothing) {
+    const Slots slots(16, {"node"});
+    const Wave w = wave_of(125);
+    for (std::uint32_t i = begin; i < begin + 125; ++i) put3(w.rays->tr, w.rays->tg, w.rays->tb, i, glm::dvec3(0));
+    Shadows queue(160);
+    const Shadows before = queue;
+    const kernels::PointLight<float> light{2, -3, 4, 10, 20, 30};
+    for (const std::size_t r : {0u, 1u}) {
+        EXPECT_EQ(stages.connect_point[r](context(slots), light, {begin, 125}, *w.rays, *w.lobes, *queue), 0u);
+        for (const std::size_t s : {0u, 1u})
+            EXPECT_EQ(stages.connect_area[s][r](context(slots), area_light, {begin, 125}, *w.rays, *w.lobes, *queue),
+                      0u);
+    }
+    EXPECT_TRUE(queue.untouched_but(before, 0, kernels::widest - 1));
+}
+
+// A light at the vertex itself has no direction and no distance: nothing may come of it, least of all a NaN.
+TEST_P(ConnectTest, PointLightOnTheSurfaceItselfIsLeftOut) {
+    const Slots slots(16, {"node"});
+    Wave w{Rays(48), Lobes(48), 1};
+    put_ray(*w.rays, begin, {1, 0, 0}, {1, 0, 0}, 0);
+    const kernels::PointLight<float> light{1, 0, 0, 1, 1, 1};
+    Shadows queue(32);
+    EXPECT_EQ(stages.connect_point[0](context(slots), light, {begin, 1}, *w.rays, *w.lobes, *queue), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Isas, ConnectTest, ::testing::ValuesIn(supported_isas()), name_of_isa);
+
+}  // namespace
+}  // namespace orrery::kernel_tests

@@ -1,0 +1,88 @@
+// Tables from plain structs: spheres, materials, lights. What lies behind the last entry is poison.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <vector>
+
+#include "kernels/queues.hpp"
+
+namespace orrery::kernel_tests {
+
+struct Ball {
+    glm::dvec3 centre{0};
+    double radius = 1;
+    std::uint32_t material = 0;
+    int light = -1;  ///< index of what it emits, -1 for nothing
+};
+
+struct Surface {
+    kernels::Scattering kind = kernels::Scattering::diffuse;
+    glm::dvec3 rho{0.5};
+    glm::dvec3 tau{0.5};
+    double eta = 1.5;
+    double beta = 0.3;
+};
+
+/// Owns what the kernels' tables point to. The numbers are rounded to float once, and read back from the tables by the
+/// scalar code the kernels are compared with.
+class World {
+public:
+    explicit World(const std::vector<Ball>& balls, const std::vector<Surface>& surfaces = {Surface{}},
+                   const std::vector<glm::dvec3>& lights = {}) {
+        for (const Ball& ball : balls) {
+            push3(columns_, 0, ball.centre);
+            columns_[3].push_back(static_cast<float>(ball.radius));
+            const auto kind = static_cast<std::uint32_t>(surfaces[ball.material].kind);
+            words_[0].push_back(ball.material | kind << kernels::surface_material_bits |
+                                (ball.light >= 0 ? kernels::surface_emits : 0));
+            words_[1].push_back(static_cast<std::uint32_t>(std::max(ball.light, 0)));
+        }
+        for (const Surface& surface : surfaces) {
+            push3(columns_, 4, surface.rho);
+            push3(columns_, 7, surface.tau);
+            columns_[10].push_back(static_cast<float>(surface.eta));
+            columns_[11].push_back(static_cast<float>(surface.beta));
+        }
+        for (const glm::dvec3& light : lights) push3(columns_, 12, light);
+        for (auto& column : columns_)
+            column.resize(column.size() + kernels::widest, std::numeric_limits<float>::quiet_NaN());
+        for (auto& column : words_) column.resize(column.size() + kernels::widest, 0xFFB5EED5u);
+        const auto count = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
+        spheres.count = count(balls);
+        spheres.cx = columns_[0].data(), spheres.cy = columns_[1].data(), spheres.cz = columns_[2].data();
+        spheres.radius = columns_[3].data();
+        spheres.surface = words_[0].data(), spheres.light = words_[1].data();
+        materials.count = count(surfaces);
+        materials.rho_r = columns_[4].data(), materials.rho_g = columns_[5].data(),
+        materials.rho_b = columns_[6].data();
+        materials.tau_r = columns_[7].data(), materials.tau_g = columns_[8].data(),
+        materials.tau_b = columns_[9].data();
+        materials.eta = columns_[10].data(), materials.roughness = columns_[11].data();
+        emission.count = count(lights);
+        emission.r = columns_[12].data(), emission.g = columns_[13].data(), emission.b = columns_[14].data();
+        emission.has_emitters = !lights.empty();
+    }
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+
+    kernels::SphereTable<float> spheres;
+    kernels::MaterialTable<float> materials;
+    kernels::EmissionTable<float> emission;
+
+    /// The numbers as the kernels see them.
+    glm::dvec3 centre(std::uint32_t k) const { return {spheres.cx[k], spheres.cy[k], spheres.cz[k]}; }
+    double radius(std::uint32_t k) const { return spheres.radius[k]; }
+
+private:
+    template <class Columns>
+    static void push3(Columns& columns, std::size_t first, const glm::dvec3& v) {
+        for (int c = 0; c < 3; ++c) columns[first + static_cast<std::size_t>(c)].push_back(static_cast<float>(v[c]));
+    }
+
+    std::array<std::vector<float>, 15> columns_;  // centre radius, rho tau eta beta, emission
+    std::array<std::vector<std::uint32_t>, 2> words_;
+};
+
+}  // namespace orrery::kernel_tests
