@@ -19,45 +19,45 @@ struct Probe {
 
     static void mul_add(const float* a, const float* b, const float* c, float* out, Word n) {
         for (Word i = 0; i < n; i += V::count)
-            kernels::store(out + i, kernels::mul_add(number(a + i), number(b + i), number(c + i)));
+            kernels::save(out + i, kernels::mul_add(number(a + i), number(b + i), number(c + i)));
     }
     static void neg_mul_add(const float* a, const float* b, const float* c, float* out, Word n) {
         for (Word i = 0; i < n; i += V::count)
-            kernels::store(out + i, kernels::neg_mul_add(number(a + i), number(b + i), number(c + i)));
+            kernels::save(out + i, kernels::neg_mul_add(number(a + i), number(b + i), number(c + i)));
     }
     static void choose_less(const float* a, const float* b, const float* c, float* out, Word n) {
         for (Word i = 0; i < n; i += V::count)
-            kernels::store(out + i, kernels::choose(number(a + i) < number(b + i), number(c + i), number(a + i)));
+            kernels::save(out + i, kernels::choose(number(a + i) < number(b + i), number(c + i), number(a + i)));
     }
     static void minimum(const float* a, const float* b, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::store(out + i, kernels::min(number(a + i), number(b + i)));
+        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::min(number(a + i), number(b + i)));
     }
     static void maximum(const float* a, const float* b, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::store(out + i, kernels::max(number(a + i), number(b + i)));
+        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::max(number(a + i), number(b + i)));
     }
     static void divide(const float* a, const float* b, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::store(out + i, F(number(a + i) / number(b + i)));
+        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, F(number(a + i) / number(b + i)));
     }
     static void root(const float* a, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::store(out + i, kernels::root(number(a + i)));
+        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::root(number(a + i)));
     }
     static void magnitude(const float* a, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::store(out + i, kernels::magnitude(number(a + i)));
+        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::magnitude(number(a + i)));
     }
     static void sincos(const float* turns, float* sin, float* cos, Word n) {
         for (Word i = 0; i < n; i += V::count) {
             const auto at = kernels::sincos_turns<V>(number(turns + i));
-            kernels::store(sin + i, at.sin);
-            kernels::store(cos + i, at.cos);
+            kernels::save(sin + i, at.sin);
+            kernels::save(cos + i, at.cos);
         }
     }
     static void flip_sign(const float* a, const Word* sign, float* out, Word n) {
         for (Word i = 0; i < n; i += V::count)
-            kernels::store(out + i, kernels::flip_sign(number(a + i), word(sign + i)));
+            kernels::save(out + i, kernels::flip_sign(number(a + i), word(sign + i)));
     }
     static void multiply_words(const Word* a, const Word* b, Word* out, Word n) {
         for (Word i = 0; i < n; i += V::count)
-            kernels::store(out + i, kernels::multiply_words(word(a + i), word(b + i)));
+            kernels::save(out + i, kernels::multiply_words(word(a + i), word(b + i)));
     }
     static void words_equal(const Word* a, const Word* b, Word* out, Word n) {
         for (Word i = 0; i < n; i += V::count) {
@@ -67,16 +67,16 @@ struct Probe {
     }
     static void choose_words(const float* a, const float* b, const Word* yes, const Word* no, Word* out, Word n) {
         for (Word i = 0; i < n; i += V::count)
-            kernels::store(out + i, kernels::choose(number(a + i) < number(b + i), word(yes + i), word(no + i)));
+            kernels::save(out + i, kernels::choose(number(a + i) < number(b + i), word(yes + i), word(no + i)));
     }
     static void unit_interval(const Word* words, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::store(out + i, kernels::unit_interval(word(words + i)));
+        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::unit_interval(word(words + i)));
     }
     static void truncate(const float* numbers, Word* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::store(out + i, kernels::truncate_to_word(number(numbers + i)));
+        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::truncate_to_word(number(numbers + i)));
     }
     static void to_number(const Word* words, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::store(out + i, kernels::to_number(word(words + i)));
+        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::to_number(word(words + i)));
     }
 
     static Word first_lanes(Word live) { return kernels::bits(kernels::first_lanes<V>(live)); }
@@ -84,7 +84,7 @@ struct Probe {
         any = any_of(number(a) < number(b));
         all = all_of(number(a) < number(b));
     }
-    static void load_store(const float* from, float* to) { kernels::store(to, number(from)); }
+    static void load_store(const float* from, float* to) { kernels::save(to, number(from)); }
     static void compress_numbers(const float* from, Word chosen, float* to) {
         kernels::compress_store<V>(to, number(from), chosen);
     }
@@ -93,38 +93,36 @@ struct Probe {
     }
 
     static void gather(const float* table, const Word* index, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::store(out + i, kernels::gather<F>(table, word(index + i)));
+        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::gather<F>(table, word(index + i)));
     }
     static void gather_words(const Word* table, const Word* index, Word* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::store(out + i, kernels::gather<U>(table, word(index + i)));
+        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::gather<U>(table, word(index + i)));
     }
     static void lookup(const float* table, Word size, const Word* index, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count)
-            kernels::store(out + i, kernels::lookup<F>(table, word(index + i), size));
+        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::lookup<F>(table, word(index + i), size));
     }
     static void lookup_words(const Word* table, Word size, const Word* index, Word* out, Word n) {
-        for (Word i = 0; i < n; i += V::count)
-            kernels::store(out + i, kernels::lookup<U>(table, word(index + i), size));
+        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::lookup<U>(table, word(index + i), size));
     }
 
     static void pcg4d(const Word* const counters[4], Word* const out[4], Word n) {
         for (Word i = 0; i < n; i += V::count) {
             const auto r = kernels::pcg4d<U>(word(counters[0] + i), word(counters[1] + i), word(counters[2] + i),
                                              word(counters[3] + i));
-            kernels::store(out[0] + i, r.x);
-            kernels::store(out[1] + i, r.y);
-            kernels::store(out[2] + i, r.z);
-            kernels::store(out[3] + i, r.w);
+            kernels::save(out[0] + i, r.x);
+            kernels::save(out[1] + i, r.y);
+            kernels::save(out[2] + i, r.z);
+            kernels::save(out[3] + i, r.w);
         }
     }
     static void random_block(const kernels::RandomKey& key, const Word* pixel, const Word* sample, const Word* vertex,
                              float* const out[4], Word n) {
         for (Word i = 0; i < n; i += V::count) {
             const auto r = kernels::random_block<V>(key, word(pixel + i), word(sample + i), word(vertex + i));
-            kernels::store(out[0] + i, r.x);
-            kernels::store(out[1] + i, r.y);
-            kernels::store(out[2] + i, r.z);
-            kernels::store(out[3] + i, r.w);
+            kernels::save(out[0] + i, r.x);
+            kernels::save(out[1] + i, r.y);
+            kernels::save(out[2] + i, r.z);
+            kernels::save(out[3] + i, r.w);
         }
     }
 
