@@ -72,10 +72,10 @@ void add_scene(CLI::App& app, Arguments& arguments) {
 
 void add_outputs(CLI::App& app, Arguments& arguments) {
     add(app, "-o,--output", "FILE",
-        "Image to write: .ppm or .png (8 bit, tone mapped), .pfm or .exr (linear radiance); repeat it for more than "
-        "one "
+        "Image to write: .ppm or .png (8 bit, tone mapped), .pfm or .exr (linear radiance); repeat it for more "
         "(default: the scene's output)",
         [&](const std::string& text) { arguments.outputs.emplace_back(text); })
+        // Each -o is read on its own: a list option of CLI11 would also swallow the SCENE after it.
         ->trigger_on_parse()
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
         ->group("Image");
@@ -94,9 +94,8 @@ void add_image(CLI::App& app, Overrides& overrides) {
                "Another seed is another noise; the same one, the same file (default: the scene's, else 0)",
                overrides.seed, 0, any);
     add(app, "--tonemap", alternatives(tonemap_words),
-        "How radiance becomes 8 bit: I/(1+I), I/max(I), or I cut off at 1 (default: the scene's, else sigmoid; none "
-        "for "
-        "depth images)",
+        "How radiance becomes 8 bit: I/(1+I), I/max(I), or I cut off at 1 (default: the scene's, else sigmoid; for "
+        "depth images none)",
         [&](const std::string& text) { overrides.tonemap = parse_word(text, tonemap_words); })
         ->group("Image");
 }
