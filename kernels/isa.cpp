@@ -10,7 +10,10 @@ namespace {
 constexpr std::array<std::string_view, 4> names = {"scalar", "sse2", "avx2", "avx512"};
 }
 
-std::string_view isa_name(Isa isa) { return names[static_cast<std::size_t>(isa)]; }
+std::string_view isa_name(Isa isa) {
+    const auto i = static_cast<std::size_t>(isa);
+    return i < names.size() ? names[i] : "an instruction set that does not exist";
+}
 
 std::optional<Isa> isa_from_name(std::string_view name) {
     for (const Isa isa : all_isas)

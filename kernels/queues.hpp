@@ -138,9 +138,10 @@ struct Runs {
 /// behind the last, and the next run begins on a whole vector behind that.
 ORRERY_INLINE constexpr std::uint32_t padded_run(std::uint32_t count) { return round_up(count + widest - 1); }
 
-/// What a ray queue must hold for a wave of `slots`, whichever way it is sorted.
+/// What a ray queue must hold for a wave of `slots`, whichever way it is sorted: a run of n takes at most
+/// n + 2 (widest - 1) places.
 ORRERY_INLINE constexpr std::uint32_t ray_capacity(std::uint32_t slots) {
-    return round_up(slots) + scattering_count * padded_run(1);
+    return round_up(slots + scattering_count * 2 * widest);
 }
 
 }  // namespace orrery::kernels

@@ -126,6 +126,7 @@ bool render_tile(Wave& wave, const Tile& tile, const std::function<bool()>& inte
             }
         }
     }
+    if (interrupted && interrupted()) return false;
     flush(wave);
     return true;
 }
