@@ -22,12 +22,16 @@ std::uint32_t roulette(const SlotTable<typename V::Real>& slots, std::uint32_t s
             const auto in_run = first_lanes<V>(run.count - n);
             const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
             const F carried = max(throughput.x, max(throughput.y, throughput.z));
-            auto alive = in_run && carried != F(0);  // a throughput that is no number lives on, to be counted
+            // A throughput that is no number in any channel lives on, to be counted; max alone would lose it,
+            // and so would xsimd's !=, which is ordered on AVX.
+            const F sum = throughput.x + throughput.y + throughput.z;
+            auto alive = in_run && !(sum == F(0));
             if (play && any(alive)) {
                 const F scale = rays.eta_scale != nullptr ? load<F>(rays.eta_scale + i) : F(1);
                 const F q = min(carried / scale, F(1));
                 const U slot = choose(in_run, load<U>(rays.slot + i), U(0u));
-                alive = alive && random_for<V>(slots, rays, i, key, bounce, slot).x < q;
+                const F u = random_for<V>(slots, rays, i, key, bounce, slot).x;
+                alive = alive && (u < q || !(sum == sum));
                 save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, throughput * (F(1) / q));
             }
             const std::uint32_t chosen = bits(alive);

@@ -68,10 +68,10 @@ void is_occluded_columns(const SphereTable<typename V::Real>& spheres, const Seg
     using F = typename V::F;
     using U = typename V::U;
     for (std::uint32_t i = 0; i < count; i += V::count) {
-        const auto blocked =
-            any_hit<V>(spheres, load3<V>(segments.ox + i, segments.oy + i, segments.oz + i),
-                       load3<V>(segments.dx + i, segments.dy + i, segments.dz + i), U(no_sphere),
-                       load<F>(segments.t_min + i), load<F>(segments.t_max + i), no_sphere, first_lanes<V>(count - i));
+        const auto blocked = any_hit<V>(spheres, load3<V>(segments.ox + i, segments.oy + i, segments.oz + i),
+                                        load3<V>(segments.dx + i, segments.dy + i, segments.dz + i), U(no_sphere),
+                                        load<F>(segments.t_min + i), F(1) / load<F>(segments.t_max + i), no_sphere,
+                                        first_lanes<V>(count - i));
         save(occluded + i, choose(blocked, U(1u), U(0u)));
     }
 }
