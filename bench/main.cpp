@@ -1,0 +1,56 @@
+// `orrery_bench`: Google Benchmark's options and a few of its own. Exit status 1 when any result was wrong.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "bench/benchmarks.hpp"
+#include "bench/timing.hpp"
+
+using namespace orrery;
+
+int main(int argc, char** argv) {
+    bench::Options options;
+    std::vector<std::string> isas;
+    benchmark::Initialize(&argc, argv);
+    CLI::App app("Benchmarks of orrery. Takes Google Benchmark's --benchmark_... options as well.");
+    app.add_option("--isa", isas, "scalar, sse2, avx2, avx512; all vector ones this machine has if left out")
+        ->delimiter(',');
+    app.add_option("--scenes", options.scenes, "the folder of scenes")->capture_default_str();
+    app.add_flag("--smoke", options.smoke, "everything once, as small as it goes");
+    options.scenes = ORRERY_SCENES;
+    CLI11_PARSE(app, argc, argv);
+
+    for (const std::string& name : isas) {
+        const auto isa = isa_from_name(name);
+        if (!isa || !isa_supported(*isa)) {
+            fmt::print(stderr, "orrery_bench: this machine has no instruction set '{}'\n", name);
+            return 2;
+        }
+        options.isas.push_back(*isa);
+    }
+    // Scalar code is what the others are checked against; nobody runs it who has a choice.
+    if (isas.empty())
+        for (const Isa isa : all_isas)
+            if (isa_supported(isa) && (isa != Isa::scalar || best_isa() == isa)) options.isas.push_back(isa);
+    if (options.smoke) {
+        options.waves = 1;
+        options.random_counts = {8, 1024};
+    }
+
+    try {
+        bench::Worlds worlds(options);
+        bench::register_machine(options);
+        bench::register_stages(options, worlds);
+        bench::register_renders(options, worlds);
+        bench::register_peers(options, worlds);
+        bench::register_builds(options, worlds);
+        benchmark::RunSpecifiedBenchmarks();
+    } catch (const std::exception& fault) {
+        fmt::print(stderr, "orrery_bench: {}\n", fault.what());
+        return 1;
+    }
+    if (bench::failures() == 0) return 0;
+    fmt::print(stderr, "orrery_bench: {} benchmarks computed something wrong\n", bench::failures());
+    return 1;
+}

@@ -1,0 +1,240 @@
+#include "bench/recorder.hpp"
+
+#include <algorithm>
+
+#include "wavefront/tile.hpp"
+
+namespace orrery::bench {
+
+using namespace kernels;
+
+namespace {
+
+using Table = Stages<float>;
+using Rays = RayQueue<float>;
+using Hits = HitQueue<float>;
+using Slots = SlotTable<float>;
+using Lobes = LobeQueue<float>;
+using Shadows = ShadowQueue<float>;
+using Spheres = SphereTable<float>;
+
+/// The table's entries are plain functions: what they work on is here while a wave is recorded.
+struct Session {
+    const Table& forward;
+    Recording& recording;
+    const Wave* wave = nullptr;
+    std::uint32_t passes = 0;  ///< of intersect, in this wave
+};
+Session* session = nullptr;
+
+Runs whole(std::uint32_t count) {
+    Runs runs;
+    runs.run[0] = {0, count};
+    return runs;
+}
+
+std::uint32_t end_of(const Runs& runs) {
+    std::uint32_t end = 0;
+    for (const Range& run : runs.run) end = std::max(end, run.count == 0 ? 0 : run.begin + run.count);
+    return end;
+}
+
+std::uint32_t total(const Runs& runs) {
+    std::uint32_t sum = 0;
+    for (const Range& run : runs.run) sum += run.count;
+    return sum;
+}
+
+/// Bytes of a record, absent fields left out.
+template <class Queue>
+std::uint32_t bytes_of(const Queue& queue) {
+    std::uint32_t sum = 0;
+    Queue::each_field([&](const char*, auto member) { sum += queue.*member != nullptr ? 4u : 0u; });
+    return sum;
+}
+
+constexpr std::uint32_t vector3 = 12, word = 4;
+
+void note(std::string stage, std::uint32_t rays, std::uint32_t bytes, std::uint32_t inputs, std::uint32_t records,
+          std::uint32_t results, std::function<Runs(const Table&, WaveStorage&)> run, std::uint32_t skip = no_sphere) {
+    const std::uint32_t bounce = session->passes == 0 ? 0 : session->passes - 1;
+    if (rays == 0 || (bounce != 0 && bounce != 1 && bounce != 3)) return;
+    const Wave& wave = *session->wave;
+    session->recording.calls.push_back({std::move(stage), bounce, rays, bytes, results, wave.count, skip,
+                                        Snapshot(wave.storage, inputs, wave.count, records), std::move(run)});
+}
+
+template <bool lens>
+void generate_noted(const CameraTable<float>& camera, const Slots& slots, std::uint32_t count, std::uint32_t seed,
+                    const Rays& rays) {
+    session->passes = 0;
+    note("generate", count, 4 * word + bytes_of(rays) + 4 * word, slot_part, 0, ray_part | radiance_part,
+         [camera, count, seed](const Table& s, WaveStorage& w) {
+             (lens ? s.generate_lens : s.generate_pinhole)(camera, w.slots, count, seed, w.rays);
+             return whole(count);
+         });
+    (lens ? session->forward.generate_lens : session->forward.generate_pinhole)(camera, slots, count, seed, rays);
+}
+
+void intersect_noted(const Spheres& spheres, const Rays& rays, std::uint32_t count, const Hits& hits) {
+    ++session->passes;
+    note("intersect", count, 2 * vector3 + word + 2 * word, ray_part, count, hit_part,
+         [spheres, count](const Table& s, WaveStorage& w) {
+             s.intersect(spheres, w.rays, count, w.hits);
+             return whole(count);
+         });
+    session->forward.intersect(spheres, rays, count, hits);
+}
+
+void emission_noted(const Spheres& spheres, const EmissionTable<float>& lights, LightStrategy strategy,
+                    const Rays& rays, const Hits& hits, std::uint32_t count, const Slots& slots) {
+    note("emission", count, bytes_of(hits) + 3 * vector3 + 2 * word, radiance_part | ray_part | hit_part, count,
+         radiance_part, [spheres, lights, strategy, count](const Table& s, WaveStorage& w) {
+             s.emission(spheres, lights, strategy, w.rays, w.hits, count, w.slots);
+             return whole(count);
+         });
+    session->forward.emission(spheres, lights, strategy, rays, hits, count, slots);
+}
+
+void sort_noted(const Spheres& spheres, std::uint32_t kinds, const Rays& rays, const Hits& hits, std::uint32_t count,
+                const Rays& sorted_rays, const Hits& sorted_hits, Runs& runs) {
+    note("sort", count, 2 * (bytes_of(rays) + bytes_of(hits)) + vector3 + word, ray_part | hit_part, count, sorted_part,
+         [spheres, kinds, count](const Table& s, WaveStorage& w) {
+             Runs found;
+             s.sort_by_scattering(spheres, kinds, w.rays, w.hits, count, w.sorted_rays, w.sorted_hits, found);
+             return found;
+         });
+    session->forward.sort_by_scattering(spheres, kinds, rays, hits, count, sorted_rays, sorted_hits, runs);
+}
+
+constexpr const char* scatter_names[scattering_count] = {"scatter diffuse", "scatter specular", "scatter glossy",
+                                                         "scatter dielectric", "scatter translucent"};
+
+template <std::uint32_t kind>
+void scatter_noted(const ScatterContext<float>& context, Range run, const Rays& rays, const Hits& hits,
+                   const Lobes& lobes) {
+    constexpr bool rough = kind == static_cast<std::uint32_t>(Scattering::glossy) ||
+                           kind == static_cast<std::uint32_t>(Scattering::translucent);
+    note(scatter_names[kind], run.count, 2 * bytes_of(rays) + bytes_of(hits) + (rough ? bytes_of(lobes) : 0),
+         slot_part | ray_part | hit_part, run.begin + run.count, ray_part | (rough ? lobe_part : 0u),
+         [context, run](const Table& s, WaveStorage& w) {
+             ScatterContext<float> here = context;
+             here.slots = w.slots;
+             s.scatter[kind](here, run, w.rays, w.hits, w.lobes);
+             Runs runs;
+             runs.run[0] = run;
+             return runs;
+         });
+    session->forward.scatter[kind](context, run, rays, hits, lobes);
+}
+
+template <std::size_t response>
+Table::ConnectPoint point_entry(const Table& table) {
+    return table.connect_point[response];
+}
+template <std::size_t strategy, std::size_t response>
+Table::ConnectArea area_entry(const Table& table) {
+    return table.connect_area[strategy][response];
+}
+
+/// Vertices towards a light of either kind: `of` finds the entry in a table.
+template <auto of, class Light>
+std::uint32_t connect_noted(const ConnectContext<float>& context, const Light& light, Range run, const Rays& rays,
+                            const Lobes& lobes, const Shadows& queue) {
+    const bool point = std::is_same_v<Light, kernels::PointLight<float>>;
+    note(point ? "connect point" : "connect area", run.count,
+         2 * vector3 + 4 * word + bytes_of(lobes) + bytes_of(queue), slot_part | ray_part | lobe_part,
+         run.begin + run.count, shadow_part, [context, light, run](const Table& s, WaveStorage& w) {
+             ConnectContext<float> here = context;
+             here.slots = w.slots;
+             return whole(of(s)(here, light, run, w.rays, w.lobes, w.shadows));
+         });
+    return of(session->forward)(context, light, run, rays, lobes, queue);
+}
+
+void shadow_noted(const Spheres& spheres, const Shadows& queue, std::uint32_t count, std::uint32_t skip,
+                  const Slots& slots) {
+    note(
+        "shadow", count, bytes_of(queue) + 2 * vector3, radiance_part | shadow_part, count, radiance_part,
+        [spheres, count, skip](const Table& s, WaveStorage& w) {
+            s.shadow(spheres, w.shadows, count, skip, w.slots);
+            return whole(count);
+        },
+        skip);
+    session->forward.shadow(spheres, queue, count, skip, slots);
+}
+
+std::uint32_t roulette_noted(const Slots& slots, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs& runs,
+                             const Rays& rays) {
+    note("roulette", total(runs), 2 * bytes_of(rays), slot_part | ray_part, end_of(runs), ray_part,
+         [seed, bounce, play, runs](const Table& s, WaveStorage& w) {
+             return whole(s.roulette(w.slots, seed, bounce, play, runs, w.rays));
+         });
+    return session->forward.roulette(slots, seed, bounce, play, runs, rays);
+}
+
+/// Entries that are not noted pass straight on.
+Table noting(const Table& forward) {
+    Table table = forward;
+    table.generate_pinhole = generate_noted<false>;
+    table.generate_lens = generate_noted<true>;
+    table.intersect = intersect_noted;
+    table.emission = emission_noted;
+    table.sort_by_scattering = sort_noted;
+    [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
+        ((table.scatter[kind] = scatter_noted<kind>), ...);
+    }
+    (std::make_integer_sequence<std::uint32_t, scattering_count>{});
+    table.connect_point[0] = connect_noted<point_entry<0>, kernels::PointLight<float>>;
+    table.connect_point[1] = connect_noted<point_entry<1>, kernels::PointLight<float>>;
+    table.connect_area[0][0] = connect_noted<area_entry<0, 0>, kernels::AreaLight<float>>;
+    table.connect_area[0][1] = connect_noted<area_entry<0, 1>, kernels::AreaLight<float>>;
+    table.connect_area[1][0] = connect_noted<area_entry<1, 0>, kernels::AreaLight<float>>;
+    table.connect_area[1][1] = connect_noted<area_entry<1, 1>, kernels::AreaLight<float>>;
+    table.shadow = shadow_noted;
+    table.roulette = roulette_noted;
+    return table;
+}
+
+}  // namespace
+
+std::vector<const StageCall*> Recording::of(const std::string& stage, std::uint32_t bounce) const {
+    std::vector<const StageCall*> found;
+    for (const StageCall& call : calls)
+        if (call.stage == stage && call.bounce == bounce) found.push_back(&call);
+    return found;
+}
+
+std::vector<std::pair<std::string, std::uint32_t>> Recording::kinds() const {
+    std::vector<std::pair<std::string, std::uint32_t>> found;
+    for (const StageCall& call : calls) {
+        const std::pair kind(call.stage, call.bounce);
+        if (std::find(found.begin(), found.end(), kind) == found.end()) found.push_back(kind);
+    }
+    return found;
+}
+
+Recording record(const Plan& plan, std::uint32_t waves) {
+    Recording recording;
+    recording.wave_size = choose_wave_size(plan, 0);
+    recording.queue_bytes_per_ray =
+        WaveStorage::bytes(plan.needs(), plan.settings().depth, recording.wave_size) / recording.wave_size;
+    const Table& forward = stages_for(best_isa());
+    const Table table = noting(forward);
+    Film film(plan.settings().width, plan.settings().height);
+    Wave wave(plan, table, film, recording.wave_size);
+    Session here{forward, recording, &wave};
+    session = &here;
+    const Tiling tiles(plan.settings().width, plan.settings().height, plan.samples());
+    // Steps of the golden section visit the image evenly, whatever the number of tiles in a row.
+    const auto step = static_cast<std::size_t>(0.618 * static_cast<double>(tiles.size())) | 1;
+    for (std::size_t i = 0; i < waves; ++i) {
+        int polls = 0;  // before each wave: one wave of a tile is enough
+        render_tile(wave, tiles[(i + 1) * step % tiles.size()], [&] { return polls++ == 1; });
+        wave.count = 0;
+    }
+    session = nullptr;
+    return recording;
+}
+
+}  // namespace orrery::bench

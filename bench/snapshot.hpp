@@ -1,0 +1,61 @@
+// What a wave's queues held at one moment, so that a stage can be run on it again and again.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "wavefront/wave_storage.hpp"
+
+namespace orrery::bench {
+
+/// Queues of a WaveStorage, as bits.
+enum Parts : std::uint32_t {
+    slot_part = 1,      ///< pixel, sample, node, plane: what identifies the slots
+    radiance_part = 2,  ///< what the slots gathered
+    ray_part = 4,
+    hit_part = 8,
+    lobe_part = 16,
+    shadow_part = 32,
+    sorted_part = 64,  ///< sorted rays and hits
+};
+
+/// Calls visit(name, array, words) for every array that is present among `parts`, `slots` and `records` long.
+template <class Storage, class Visit>
+void each_array(Storage& storage, std::uint32_t parts, std::uint32_t slots, std::uint32_t records, const Visit& visit) {
+    const auto queue = [&](auto& of, std::uint32_t count) {
+        std::remove_cvref_t<decltype(of)>::each_field([&](const char* name, auto member) {
+            if (of.*member != nullptr) visit(name, of.*member, std::size_t{count});
+        });
+    };
+    if (parts & slot_part) {
+        visit("pixel", storage.slots.pixel, std::size_t{slots});
+        visit("sample", storage.slots.sample, std::size_t{slots});
+        if (storage.slots.node != nullptr) visit("node", storage.slots.node, std::size_t{slots});
+        visit("plane_x", storage.slots.plane_x, std::size_t{slots});
+        visit("plane_y", storage.slots.plane_y, std::size_t{slots});
+    }
+    if (parts & radiance_part) visit("radiance", storage.slots.radiance, std::size_t{4} * slots);
+    if (parts & ray_part) queue(storage.rays, records);
+    if (parts & hit_part) queue(storage.hits, records);
+    if (parts & lobe_part) queue(storage.lobes, records);
+    if (parts & shadow_part) queue(storage.shadows, records);
+    if (parts & sorted_part) {
+        queue(storage.sorted_rays, records);
+        queue(storage.sorted_hits, records);
+    }
+}
+
+class Snapshot {
+public:
+    /// Copies the first `slots` slots and `records` records of `parts`, rounded up to whole vectors.
+    Snapshot(const WaveStorage& from, std::uint32_t parts, std::uint32_t slots, std::uint32_t records);
+
+    /// Puts everything back where it was. `to` has the layout of the storage the snapshot was taken of.
+    void restore(WaveStorage& to) const;
+
+private:
+    std::uint32_t parts_, slots_, records_;
+    std::vector<std::uint32_t> words_;
+};
+
+}  // namespace orrery::bench

@@ -1,0 +1,76 @@
+// Time and cycles around a few microseconds of work.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#if defined(__x86_64__)
+#include <x86intrin.h>
+#endif
+
+namespace orrery::bench {
+
+/// Ticks of a constant-rate counter: the time-stamp counter where there is one, else nanoseconds.
+inline std::uint64_t ticks() {
+#if defined(__x86_64__)
+    _mm_lfence();  // what came before has finished, what comes after has not begun
+    const std::uint64_t now = __rdtsc();
+    _mm_lfence();
+    return now;
+#else
+    return static_cast<std::uint64_t>(
+        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+            .count());
+#endif
+}
+
+/// Measured once, over 50 ms.
+double ticks_per_second();
+
+/// Core cycles and instructions of this thread in user mode, where the machine lets us count them.
+class HardwareCounters {
+public:
+    HardwareCounters();
+    ~HardwareCounters();
+    HardwareCounters(const HardwareCounters&) = delete;
+    HardwareCounters& operator=(const HardwareCounters&) = delete;
+
+    bool available() const { return available_; }
+    void start();
+    void stop();
+    /// Sums over all intervals from start to stop.
+    std::uint64_t cycles() const { return sums_[0]; }
+    std::uint64_t instructions() const { return sums_[1]; }
+
+private:
+    int files_[2] = {-1, -1};
+    bool available_ = false;
+    std::uint64_t sums_[2] = {0, 0};
+};
+
+/// One of the pieces a pass of a benchmark is made of. Only `run` is timed.
+struct Piece {
+    std::function<void()> prepare, run;
+};
+
+enum class TimedBy : std::uint8_t {
+    wall,       ///< the time-stamp counter: good to a microsecond
+    processor,  ///< the process's time on processors: what takes milliseconds, on one thread
+};
+
+/// Runs passes over all pieces until the benchmark has had enough and sets the counters Rays/s and cycles/ray (of the
+/// time-stamp counter) from each piece's *median* time: neighbours on a shared machine interrupt a few pieces for
+/// milliseconds, which a mean would not survive; core_cycles/ray and instructions/ray where the machine counts them.
+/// `rays` is a pass's.
+void time_passes(benchmark::State& state, const std::vector<Piece>& pieces, double rays, TimedBy clock = TimedBy::wall);
+
+/// Notes that a benchmark's result is wrong: the program will fail.
+void fail(benchmark::State& state, const std::string& reason);
+/// How many have.
+int failures();
+
+}  // namespace orrery::bench
