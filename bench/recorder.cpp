@@ -76,14 +76,15 @@ void generate_noted(const CameraTable<float>& camera, const Slots& slots, std::u
     (lens ? session->forward.generate_lens : session->forward.generate_pinhole)(camera, slots, count, seed, rays);
 }
 
+template <bool tree>
 void intersect_noted(const Spheres& spheres, const Rays& rays, std::uint32_t count, const Hits& hits) {
     ++session->passes;
     note("intersect", count, 2 * vector3 + word + 2 * word, ray_part, count, hit_part,
          [spheres, count](const Table& s, WaveStorage& w) {
-             s.intersect(spheres, w.rays, count, w.hits);
+             (tree ? s.intersect_tree : s.intersect)(spheres, w.rays, count, w.hits);
              return whole(count);
          });
-    session->forward.intersect(spheres, rays, count, hits);
+    (tree ? session->forward.intersect_tree : session->forward.intersect)(spheres, rays, count, hits);
 }
 
 void emission_noted(const Spheres& spheres, const EmissionTable<float>& lights, LightStrategy strategy,
@@ -152,16 +153,17 @@ std::uint32_t connect_noted(const ConnectContext<float>& context, const Light& l
     return of(session->forward)(context, light, run, rays, lobes, queue);
 }
 
+template <bool tree>
 void shadow_noted(const Spheres& spheres, const Shadows& queue, std::uint32_t count, std::uint32_t skip,
                   const Slots& slots) {
     note(
         "shadow", count, bytes_of(queue) + 2 * vector3, radiance_part | shadow_part, count, radiance_part,
         [spheres, count, skip](const Table& s, WaveStorage& w) {
-            s.shadow(spheres, w.shadows, count, skip, w.slots);
+            (tree ? s.shadow_tree : s.shadow)(spheres, w.shadows, count, skip, w.slots);
             return whole(count);
         },
         skip);
-    session->forward.shadow(spheres, queue, count, skip, slots);
+    (tree ? session->forward.shadow_tree : session->forward.shadow)(spheres, queue, count, skip, slots);
 }
 
 std::uint32_t roulette_noted(const Slots& slots, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs& runs,
@@ -178,7 +180,8 @@ Table noting(const Table& forward) {
     Table table = forward;
     table.generate_pinhole = generate_noted<false>;
     table.generate_lens = generate_noted<true>;
-    table.intersect = intersect_noted;
+    table.intersect = intersect_noted<false>;
+    table.intersect_tree = intersect_noted<true>;
     table.emission = emission_noted;
     table.sort_by_scattering = sort_noted;
     [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
@@ -191,7 +194,8 @@ Table noting(const Table& forward) {
     table.connect_area[0][1] = connect_noted<area_entry<0, 1>, kernels::AreaLight<float>>;
     table.connect_area[1][0] = connect_noted<area_entry<1, 0>, kernels::AreaLight<float>>;
     table.connect_area[1][1] = connect_noted<area_entry<1, 1>, kernels::AreaLight<float>>;
-    table.shadow = shadow_noted;
+    table.shadow = shadow_noted<false>;
+    table.shadow_tree = shadow_noted<true>;
     table.roulette = roulette_noted;
     return table;
 }

@@ -39,8 +39,8 @@ Scene random_scene(std::uint32_t count) {
 }
 
 double table_bytes(const kernels::SphereTable<float>& spheres) {
-    constexpr double sphere = 6 * 4, group = 5 * 4;  // columns of four bytes
-    return sphere * spheres.count + group * spheres.groups.count;
+    constexpr double sphere = 6 * 4;  // columns of four bytes
+    return sphere * spheres.count + static_cast<double>(sizeof(kernels::TreeNode<float>)) * spheres.tree.count;
 }
 
 Scene file_scene(const std::filesystem::path& folder, const std::string& name) {

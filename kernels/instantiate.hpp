@@ -6,6 +6,7 @@
 #include "kernels/shadow.hpp"
 #include "kernels/sort.hpp"
 #include "kernels/stages.hpp"
+#include "kernels/tree_stages.hpp"
 #include "kernels/whitted.hpp"
 
 namespace orrery::kernels {
@@ -20,6 +21,7 @@ constexpr Stages<typename V::Real> make_stages(Isa isa) {
     s.generate_pinhole = generate<V, false>;
     s.generate_lens = generate<V, true>;
     s.intersect = intersect<V>;
+    s.intersect_tree = intersect_tree<V>;
     s.emission = emission<V>;
     s.sort_by_scattering = sort_by_scattering<V>;
     s.scatter[0] = scatter<V, diffuse>;
@@ -34,13 +36,14 @@ constexpr Stages<typename V::Real> make_stages(Isa isa) {
     s.connect_area[1][0] = connect_area<V, Response::diffuse, cone>;
     s.connect_area[1][1] = connect_area<V, Response::glossy, cone>;
     s.shadow = shadow<V>;
+    s.shadow_tree = shadow_tree<V>;
     s.roulette = roulette<V>;
     s.expire = expire<V>;
     s.branch = branch<V>;
     s.descend = descend<V>;
     s.resume = resume<V>;
-    s.intersects = intersects_columns<V>;
-    s.is_occluded = is_occluded_columns<V>;
+    s.intersects = intersects_any_table<V>;
+    s.is_occluded = is_occluded_any_table<V>;
     return s;
 }
 

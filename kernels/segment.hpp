@@ -3,7 +3,7 @@
 // Both forms are the maths body of the wavefront's stages (intersect.hpp) over scalar or vector lanes.
 #pragma once
 
-#include "kernels/intersect.hpp"
+#include "kernels/tree_cast.hpp"
 
 namespace orrery::kernels {
 
@@ -23,10 +23,21 @@ struct SegmentHit {
     bool inside;          ///< met from within the sphere
 };
 
+template <class Real>
+ORRERY_INLINE TreeSource<Real> source_of(const Segment<Real>& s) {
+    return {&s.ox, &s.oy, &s.oz, &s.dx, &s.dy, &s.dz, nullptr, &s.t_min};
+}
+
 /// The closest hit of the segment. Never fails; a table of no spheres is never hit.
 template <class Real>
 SegmentHit<Real> intersects(const SphereTable<Real>& spheres, const Segment<Real>& segment) {
     using V = ScalarLanes<Real>;
+    if (spheres.tree.count != 0) {
+        TreeHits<Real> hits;
+        hits.t[0] = segment.t_max;
+        closest_in_tree<V>(spheres, source_of(segment), 1, hits);
+        return {hits.t[0], hits.id[0] & no_sphere, (hits.id[0] & inside_bit) != 0};
+    }
     const Vec3<Real> o{segment.ox, segment.oy, segment.oz}, d{segment.dx, segment.dy, segment.dz};
     const auto best = closest_hit<V>(spheres, o, d, WordOf<Real>{no_sphere}, segment.t_min, segment.t_max);
     return {best.num / best.den, best.id & no_sphere, (best.id & inside_bit) != 0};
@@ -36,8 +47,14 @@ SegmentHit<Real> intersects(const SphereTable<Real>& spheres, const Segment<Real
 template <class Real>
 bool is_occluded(const SphereTable<Real>& spheres, const Segment<Real>& segment) {
     using V = ScalarLanes<Real>;
+    const Real inverse_t_max = Real(1) / segment.t_max;
+    if (spheres.tree.count != 0) {
+        WordOf<Real> occluded = 0;
+        occluded_in_tree<V>(spheres, source_of(segment), &inverse_t_max, 1, no_sphere, &occluded);
+        return occluded != 0;
+    }
     const Vec3<Real> o{segment.ox, segment.oy, segment.oz}, d{segment.dx, segment.dy, segment.dz};
-    return any_hit<V>(spheres, o, d, WordOf<Real>{no_sphere}, segment.t_min, Real(1) / segment.t_max, no_sphere, true);
+    return any_hit<V>(spheres, o, d, WordOf<Real>{no_sphere}, segment.t_min, inverse_t_max, no_sphere, true);
 }
 
 /// Segments as columns, capacity a multiple of `widest`.
@@ -45,6 +62,10 @@ template <class Real>
 struct SegmentColumns {
     const Real *ox, *oy, *oz, *dx, *dy, *dz, *t_min, *t_max;
 };
+template <class Real>
+ORRERY_INLINE TreeSource<Real> source_of(const SegmentColumns<Real>& s, std::uint32_t at) {
+    return {s.ox + at, s.oy + at, s.oz + at, s.dx + at, s.dy + at, s.dz + at, nullptr, s.t_min + at};
+}
 
 /// The vector form of `intersects`: hits[i] with inside_bit in the id, no_sphere and t_max where nothing was hit.
 template <class V>

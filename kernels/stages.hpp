@@ -19,7 +19,9 @@ struct Stages {
                               const RayQueue<Real>&);
     Generate generate_pinhole, generate_lens;
 
-    void (*intersect)(const SphereTable<Real>&, const RayQueue<Real>&, std::uint32_t count, const HitQueue<Real>&);
+    using Intersect = void (*)(const SphereTable<Real>&, const RayQueue<Real>&, std::uint32_t count,
+                               const HitQueue<Real>&);
+    Intersect intersect, intersect_tree;
 
     void (*emission)(const SphereTable<Real>&, const EmissionTable<Real>&, LightStrategy, const RayQueue<Real>&,
                      const HitQueue<Real>&, std::uint32_t count, const SlotTable<Real>&);
@@ -37,8 +39,9 @@ struct Stages {
     ConnectPoint connect_point[2];   ///< by Response
     ConnectArea connect_area[2][2];  ///< by LightStrategy, Response
 
-    void (*shadow)(const SphereTable<Real>&, const ShadowQueue<Real>&, std::uint32_t count, std::uint32_t skip,
-                   const SlotTable<Real>&);
+    using Shadow = void (*)(const SphereTable<Real>&, const ShadowQueue<Real>&, std::uint32_t count, std::uint32_t skip,
+                            const SlotTable<Real>&);
+    Shadow shadow, shadow_tree;
 
     std::uint32_t (*roulette)(const SlotTable<Real>&, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs&,
                               const RayQueue<Real>&);

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "kernels/lanes.hpp"
+#include "kernels/tree.hpp"
 
 namespace orrery::kernels {
 
@@ -49,6 +50,7 @@ struct SphereTable {
     const Word* surface = nullptr;  ///< see surface_material_bits
     const Word* light = nullptr;    ///< index into the area lights where surface_emits is set, else 0
     SphereGroups<Real> groups{};
+    SphereTree<Real> tree{};
 };
 
 template <class Real>

@@ -28,11 +28,9 @@ std::vector<Decision> Plan::decisions() const {
     const auto decide = [&](const char* part, bool runs, std::string reason) {
         list.push_back({part, runs, std::move(reason)});
     };
-    const auto groups = spheres_.groups.count;
-    decide("intersect: groups", groups != 0,
-           groups != 0 ? fmt::format("{} spheres: {} alone, the others in {} groups", spheres_.count,
-                                     spheres_.groups.ungrouped, groups)
-                       : fmt::format("{} spheres: one loop is faster below {}", spheres_.count, group_crossover));
+    decide("intersect: tree", n.tree,
+           n.tree ? fmt::format("{} spheres in {} nodes of sixteen", spheres_.count, tree_.nodes.size())
+                  : fmt::format("{} spheres: one loop is faster below {}", spheres_.count, tree_crossover));
     decide("generate: lens", n.lens,
            n.lens ? fmt::format("aperture {}", scene_.camera.aperture) : "the camera is a pinhole");
     if (n.integrator == Integrator::depth) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include "kernels/queues.hpp"
@@ -44,14 +45,14 @@ constexpr std::uint32_t bit(Scattering kind) { return 1u << static_cast<unsigned
 
 }  // namespace
 
-Plan::Plan(Scene scene) : scene_(std::move(scene)) {
+Plan::Plan(Scene scene, const TreeProgress& progress) : scene_(std::move(scene)) {
     const RenderSettings& s = scene_.settings;
     require_valid(scene_);
     if (s.estimator == Estimator::stratified) {
         strata_ = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(s.samples)));
     }
     plan_camera();
-    plan_surfaces();
+    plan_surfaces(plan_tree(progress));
     plan_lights();
     plan_needs();
 }
@@ -93,7 +94,25 @@ void Plan::plan_camera() {
     enclosing_distance_ = reach > 0 ? f(2 * reach) : 1.0f;
 }
 
-void Plan::plan_surfaces() {
+/// Few spheres keep their order; many take their tree's. Returns which primitive stands at each place.
+std::vector<std::uint32_t> Plan::plan_tree(const TreeProgress& progress) {
+    std::vector<std::uint32_t> order(scene_.primitives.size());
+    std::iota(order.begin(), order.end(), 0u);
+    needs_.tree = order.size() >= tree_crossover;
+    if (!needs_.tree) return order;
+    std::vector<BuildSphere> spheres;
+    spheres.reserve(order.size());
+    for (const std::uint32_t i : order) {
+        const Primitive& p = scene_.primitives[i];
+        const glm::vec3 centre(p.centre);
+        spheres.push_back({centre.x, centre.y, centre.z, static_cast<float>(p.radius), i});
+    }
+    tree_ = build_tree(spheres, progress);
+    std::ranges::transform(spheres, order.begin(), &BuildSphere::index);
+    return order;
+}
+
+void Plan::plan_surfaces(const std::vector<std::uint32_t>& order) {
     const auto push3 = [](auto& columns, std::size_t first, const glm::dvec3& v) {
         for (int c = 0; c < 3; ++c) columns[first + static_cast<std::size_t>(c)].push_back(static_cast<float>(v[c]));
     };
@@ -104,9 +123,8 @@ void Plan::plan_surfaces() {
         material_columns_[7].push_back(static_cast<float>(m.roughness));
     }
     std::uint32_t index = 0;
-    grouping_ = group_spheres(scene_.primitives);
-    for (const std::uint32_t place : grouping_.order) {
-        const Primitive& p = scene_.primitives[place];
+    for (const std::uint32_t primitive : order) {
+        const Primitive& p = scene_.primitives[primitive];
         push3(sphere_columns_, 0, p.centre);
         sphere_columns_[3].push_back(static_cast<float>(p.radius));
         const Scattering kind = scattering_of(scene_.materials[p.material], settings().integrator);
@@ -135,8 +153,8 @@ void Plan::plan_surfaces() {
                 sphere_columns_[3].data(),
                 sphere_words_[0].data(),
                 sphere_words_[1].data(),
-                {static_cast<std::uint32_t>(grouping_.end.size()), grouping_.ungrouped, grouping_.cx.data(),
-                 grouping_.cy.data(), grouping_.cz.data(), grouping_.radius2.data(), grouping_.end.data()}};
+                {},
+                {static_cast<std::uint32_t>(tree_.nodes.size()), tree_.nodes.data(), tree_.extent}};
     materials_ = {static_cast<std::uint32_t>(scene_.materials.size()),
                   material_columns_[0].data(),
                   material_columns_[1].data(),

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kernels/tables.hpp"
-#include "plan/group.hpp"
+#include "plan/tree.hpp"
 #include "scene/scene.hpp"
 
 namespace orrery {
@@ -15,6 +15,7 @@ namespace orrery {
 /// allocated.
 struct Needs {
     Integrator integrator = Integrator::path_tracing;
+    bool tree = false;                ///< many spheres: rays go through a tree
     bool lens = false;                ///< sample the aperture
     std::uint32_t scattering = 0;     ///< bit k: some surface scatters as kernels::Scattering k
     bool sort = false;                ///< more than one kind: hits are sorted by it
@@ -42,8 +43,9 @@ struct Decision {
 /// Columns that own what the kernels' tables point to. The tables stay valid for the plan's life; plans do not copy.
 class Plan {
 public:
-    /// Throws std::invalid_argument where a scene built by hand breaks what the reader guarantees.
-    explicit Plan(Scene scene);
+    /// Throws std::invalid_argument where a scene built by hand breaks what the reader guarantees. `progress` hears of
+    /// the building of a tree over many spheres.
+    explicit Plan(Scene scene, const TreeProgress& progress = {});
     Plan(const Plan&) = delete;
     Plan& operator=(const Plan&) = delete;
 
@@ -71,7 +73,8 @@ public:
 
 private:
     void plan_camera();
-    void plan_surfaces();
+    std::vector<std::uint32_t> plan_tree(const TreeProgress& progress);
+    void plan_surfaces(const std::vector<std::uint32_t>& order);
     void plan_lights();
     void plan_needs();
 
@@ -86,7 +89,7 @@ private:
     kernels::EmissionTable<float> emission_;
     std::vector<kernels::PointLight<float>> point_lights_;
     std::vector<kernels::AreaLight<float>> area_lights_;
-    Grouping grouping_;
+    Tree tree_;
     std::array<std::vector<float>, 4> sphere_columns_;        // cx cy cz radius
     std::array<std::vector<std::uint32_t>, 2> sphere_words_;  // surface light
     std::array<std::vector<float>, 8> material_columns_;      // rho, tau, eta, roughness

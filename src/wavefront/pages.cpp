@@ -26,7 +26,8 @@ std::uint32_t generate(Wave& w) {
 /// Rays -> hits.
 void intersect(Wave& w, std::uint32_t rays) {
     const StageTimer timer(w, Stage::intersect);
-    w.stages.intersect(w.plan.spheres(), w.storage.rays, rays, w.storage.hits);
+    const auto stage = w.plan.needs().tree ? w.stages.intersect_tree : w.stages.intersect;
+    stage(w.plan.spheres(), w.storage.rays, rays, w.storage.hits);
     w.counters.closest_rays += rays;
 }
 
@@ -78,7 +79,8 @@ void scatter(Wave& w, Scattering kind, const Runs& runs, std::uint32_t bounce) {
 void shadow(Wave& w, std::uint32_t rays, std::uint32_t light_sphere) {
     if (rays == 0) return;
     const StageTimer timer(w, Stage::shadow);
-    w.stages.shadow(w.plan.spheres(), w.storage.shadows, rays, light_sphere, w.storage.slots);
+    const auto stage = w.plan.needs().tree ? w.stages.shadow_tree : w.stages.shadow;
+    stage(w.plan.spheres(), w.storage.shadows, rays, light_sphere, w.storage.slots);
     w.counters.shadow_rays += rays;
 }
 

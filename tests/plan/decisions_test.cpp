@@ -62,7 +62,7 @@ TEST(Decisions, SayWhatTheNeedsSay) {
     for_each_plan([](const Plan& plan) {
         const Needs& needs = plan.needs();
         const auto all = plan.decisions();
-        EXPECT_EQ(decision(all, "intersect: groups").runs, plan.spheres().groups.count != 0);
+        EXPECT_EQ(decision(all, "intersect: tree").runs, plan.spheres().tree.count != 0);
         EXPECT_EQ(decision(all, "generate: lens").runs, needs.lens);
         if (needs.integrator == Integrator::depth) {
             EXPECT_FALSE(decision(all, "shade, shadow, roulette").runs);
@@ -87,7 +87,7 @@ TEST(Decisions, CountWhatTheySpeakOf) {
     add_area_light(scene);
     add_point_light(scene);
     const auto all = Plan(scene).decisions();
-    EXPECT_EQ(decision(all, "intersect: groups").reason, "4 spheres: one loop is faster below 24");
+    EXPECT_EQ(decision(all, "intersect: tree").reason, "4 spheres: one loop is faster below 64");
     EXPECT_EQ(decision(all, "shade: emission").reason, "2 emissive spheres");
     EXPECT_EQ(decision(all, "shadow: point lights").reason, "1 of them, from diffuse, glossy surfaces");
     EXPECT_EQ(decision(all, "shadow: area lights").reason,

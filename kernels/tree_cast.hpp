@@ -1,0 +1,155 @@
+// Closest hit and occlusion through the tree, a bunch of rays at a time: the maths of sphere.hpp, one root at a time.
+//
+// The closest hit is the least (t, id) over all spheres the ray meets, which no order of visits can change.
+#pragma once
+
+#include <limits>
+
+#include "kernels/intersect.hpp"
+#include "kernels/tree_traverse.hpp"
+
+namespace orrery::kernels {
+
+/// What a bunch of rays has found so far.
+template <class Real>
+struct TreeHits {
+    using Word = WordOf<Real>;
+    alignas(64) Real t[tree_bunch];   ///< t_max where nothing was met
+    alignas(64) Word id[tree_bunch];  ///< with inside_bit; no_sphere where nothing was met
+};
+
+/// Rays of a queue or columns. They begin at their origins and leave `left`, or they begin at t_min and leave nothing:
+/// one of the two is null.
+template <class Real>
+struct TreeSource {
+    using Word = WordOf<Real>;
+    const Real *ox, *oy, *oz, *dx, *dy, *dz;
+    const Word* left;
+    const Real* t_min;
+};
+
+/// The first root of a chord that a ray of the source may take.
+template <class Real>
+ORRERY_INLINE Root<ScalarLanes<Real>> first_root(const TreeSource<Real>& source, std::uint32_t ray,
+                                                 const Chord<Real>& line) {
+    using One = ScalarLanes<Real>;
+    const Real s = root(line.disc);
+    return source.t_min == nullptr ? first_root<One>(line, s, FromOrigin{}, true)
+                                   : first_root<One>(line, s, source.t_min[ray], true);
+}
+template <class Real>
+ORRERY_INLINE bool leaves(const TreeSource<Real>& source, std::uint32_t ray, std::uint32_t sphere) {
+    return source.left != nullptr && (source.left[ray] & no_sphere) == sphere;
+}
+
+/// A ray is cut a hair behind its closest hit, so that rounding hides no equal one.
+template <class F>
+ORRERY_INLINE F tree_limit(const F& t) {
+    return t * F(static_cast<float>(limit_margin));
+}
+
+/// Where rays that leave sphere `left` inward meet it again; elsewhere t_max.
+template <class V>
+ORRERY_INLINE void put_inner_roots(const SphereTable<typename V::Real>& spheres, const Vec3<typename V::F>& o,
+                                   const Vec3<typename V::F>& d, const typename V::U& left, typename V::F& t,
+                                   typename V::U& id) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const U left_id = left & U(no_sphere);
+    const auto inward = !words_equal(left, left_id);
+    if (!any(inward)) return;
+    const F inner = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
+    const auto closer = inward && inner < t;
+    t = choose(closer, inner, t);
+    id = choose(closer, left, id);
+}
+
+/// Closest hits of `count` <= tree_bunch rays with t_min < t < t_max, as intersect.hpp's closest_hit has them.
+/// hits.t holds t_max for every ray.
+template <class V>
+ORRERY_INLINE void closest_in_tree(const SphereTable<typename V::Real>& spheres,
+                                   const TreeSource<typename V::Real>& source, std::uint32_t count,
+                                   TreeHits<typename V::Real>& hits) {
+    using Real = typename V::Real;
+    using Word = typename V::Word;
+    using F = typename V::F;
+    using U = typename V::U;
+    TreeRays<Real> rays;
+    TreeStack<Real> stack;
+    for (std::uint32_t i = 0; i < count; i += V::count) {
+        const auto o = load3<V>(source.ox + i, source.oy + i, source.oz + i);
+        const auto d = load3<V>(source.dx + i, source.dy + i, source.dz + i);
+        F t = load<F>(hits.t + i);
+        U id(no_sphere);
+        if (source.left != nullptr) {
+            const U left = choose(first_lanes<V>(count - i), load<U>(source.left + i), U(no_sphere));
+            put_inner_roots<V>(spheres, o, d, left, t, id);
+        }
+        put_tree_rays<V>(rays, i, o, d, spheres.tree.extent);
+        save(hits.t + i, t);
+        save(hits.id + i, id);
+        save(rays.limit + i, tree_limit(t));
+    }
+    traverse<V>(spheres, rays, count, stack,
+                [&](std::uint32_t ray, const Chord<Real>& line, std::uint32_t k) ORRERY_INLINE_LAMBDA {
+                    if (leaves(source, ray, k)) return;
+                    const auto found = first_root(source, ray, line);
+                    if (!found.exists) return;
+                    const Real t = found.num / found.den;
+                    const Word id = found.inside ? Word{k} | inside_bit : Word{k};
+                    const Word other = hits.id[ray] & no_sphere;
+                    if (t < hits.t[ray] || (t == hits.t[ray] && other != no_sphere && k < other)) {
+                        hits.t[ray] = t;
+                        hits.id[ray] = id;
+                        rays.limit[ray] = tree_limit(t);
+                    }
+                });
+}
+
+/// Which of `count` <= tree_bunch rays meet a sphere but `skip` with t_min < t < 1 / inverse_t_max, as intersect.hpp's
+/// any_hit has it: 1 or 0.
+template <class V>
+ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres,
+                                    const TreeSource<typename V::Real>& source, const typename V::Real* inverse_t_max,
+                                    std::uint32_t count, std::uint32_t skip, typename V::Word* occluded) {
+    using Real = typename V::Real;
+    using F = typename V::F;
+    using U = typename V::U;
+    using One = ScalarLanes<Real>;
+    TreeRays<Real> rays;
+    TreeStack<Real> stack;
+    for (std::uint32_t i = 0; i < count; i += V::count) {
+        const auto o = load3<V>(source.ox + i, source.oy + i, source.oz + i);
+        const auto d = load3<V>(source.dx + i, source.dy + i, source.dz + i);
+        const F inverse = load<F>(inverse_t_max + i);
+        U blocked(0u);
+        if (source.left != nullptr) {
+            const U left = choose(first_lanes<V>(count - i), load<U>(source.left + i), U(no_sphere));
+            const U left_id = left & U(no_sphere);
+            const auto inward = !words_equal(left, left_id) && !words_equal(left_id, U(skip));
+            if (any(inward)) {
+                const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
+                blocked = choose(inward && t * inverse < F(1), U(1u), blocked);
+            }
+        }
+        put_tree_rays<V>(rays, i, o, d, spheres.tree.extent);
+        save(occluded + i, blocked);
+        save(rays.limit + i, choose(words_equal(blocked, U(1u)), F(-1), tree_limit(F(1) / inverse)));
+    }
+    traverse<V>(spheres, rays, count, stack,
+                [&](std::uint32_t ray, const Chord<Real>& line, std::uint32_t k) ORRERY_INLINE_LAMBDA {
+                    if (k == skip || occluded[ray] != 0) return;
+                    if (leaves(source, ray, k)) return;
+                    const Real inverse = inverse_t_max[ray];
+                    bool hit = source.t_min == nullptr && near_root_before<One>(line, inverse);
+                    if (!hit && (source.t_min != nullptr || line.c <= 0)) {
+                        const auto first = first_root(source, ray, line);
+                        hit = first.exists && first.num * inverse < first.den;
+                    }
+                    if (!hit) return;
+                    occluded[ray] = 1;
+                    rays.limit[ray] = -1;
+                });
+}
+
+}  // namespace orrery::kernels

@@ -1,0 +1,155 @@
+// A bunch of rays through the tree, node by node: a node is read once for all rays that reach it.
+//
+// One ray fills the vector with sixteen boxes, or with the sixteen spheres of a leaf, so the lanes are full however
+// little the rays agree, and the rays of a list are independent work that hides each other's latency. Which nodes a
+// ray reaches, and in which order, depends on nothing but itself: the children are ordered by octant and each ray's
+// boxes are its own. So its hit is the same whatever else is in the bunch.
+#pragma once
+
+#include <bit>
+
+#include "kernels/compress.hpp"
+#include "kernels/sphere.hpp"
+#include "kernels/tree_rays.hpp"
+
+namespace orrery::kernels {
+
+/// A node on the way down: its rays, which children each of them has met, which are still to be visited.
+struct TreeFrame {
+    std::uint32_t node;
+    std::uint32_t pending;      ///< children some ray has met
+    std::uint64_t order;        ///< the next child to visit is in the lowest four bits
+    std::uint32_t begin, size;  ///< rays, in TreeStack's columns
+};
+
+/// Room for a path from the root to the deepest node, every ray of the bunch reaching it.
+template <class Real>
+struct TreeStack {
+    using Word = WordOf<Real>;
+    static constexpr std::uint32_t room = (tree_depth + 1) * (tree_bunch + tree_width);
+    TreeFrame frame[tree_depth];
+    Word ray[room];  ///< place in TreeRays
+    Word met[room];  ///< bit c: the ray has met child c
+};
+
+/// Writes for every ray of the list which children it meets before its limit. Returns those any ray meets.
+template <class V>
+ORRERY_INLINE std::uint32_t meet_children(const TreeNode<typename V::Real>& node,
+                                          const TreeRays<typename V::Real>& rays, std::uint32_t octant,
+                                          const typename V::Word* list, std::uint32_t size, typename V::Word* met) {
+    using F = typename V::F;
+    for (std::uint32_t i = 0; i < size; ++i) met[i] = 0;
+    std::uint32_t some = 0;
+    const auto* const near_x = node.bound[octant & 1u];
+    const auto* const far_x = node.bound[~octant & 1u];
+    const auto* const near_y = node.bound[2 + (octant >> 1 & 1u)];
+    const auto* const far_y = node.bound[2 + (~octant >> 1 & 1u)];
+    const auto* const near_z = node.bound[4 + (octant >> 2 & 1u)];
+    const auto* const far_z = node.bound[4 + (~octant >> 2 & 1u)];
+    for (std::uint32_t c = 0; c < tree_width; c += V::count) {
+        const F nx = load<F>(near_x + c), fx = load<F>(far_x + c);
+        const F ny = load<F>(near_y + c), fy = load<F>(far_y + c);
+        const F nz = load<F>(near_z + c), fz = load<F>(far_z + c);
+        for (std::uint32_t i = 0; i < size; ++i) {
+            const auto r = list[i];
+            const F ix(rays.inverse[0][r]), iy(rays.inverse[1][r]), iz(rays.inverse[2][r]);
+            const F enter = max(max(mul_add(nx, ix, F(rays.near[0][r])), mul_add(ny, iy, F(rays.near[1][r]))),
+                                max(mul_add(nz, iz, F(rays.near[2][r])), F(0)));
+            const F leave = min(min(mul_add(fx, ix, F(rays.far[0][r])), mul_add(fy, iy, F(rays.far[1][r]))),
+                                min(mul_add(fz, iz, F(rays.far[2][r])), F(rays.limit[r])));
+            const std::uint32_t here = bits(enter <= leave) << c;
+            met[i] |= here;
+            some |= here;
+        }
+    }
+    return some;
+}
+
+/// Tests every ray of the list against the sixteen spheres from `first` on. Behind a shorter leaf those are others of
+/// the table, which can do no harm.
+template <class V, class Meet>
+ORRERY_INLINE void meet_spheres(const SphereTable<typename V::Real>& spheres, std::uint32_t first,
+                                TreeRays<typename V::Real>& rays, const typename V::Word* list, std::uint32_t size,
+                                const Meet& meet) {
+    using Real = typename V::Real;
+    using F = typename V::F;
+    for (std::uint32_t k = first; k < first + tree_width; k += V::count) {
+        const auto centre = load3<V>(spheres.cx + k, spheres.cy + k, spheres.cz + k);
+        const F radius = load<F>(spheres.radius + k);
+        for (std::uint32_t i = 0; i < size; ++i) {
+            const auto r = list[i];
+            const Vec3<F> o{F(rays.origin[0][r]), F(rays.origin[1][r]), F(rays.origin[2][r])};
+            const Vec3<F> d{F(rays.direction[0][r]), F(rays.direction[1][r]), F(rays.direction[2][r])};
+            const auto line = chord(o, d, Sphere<F>{centre, radius});
+            std::uint32_t hit = bits(line.disc > F(0));
+            if (hit == 0) continue;
+            alignas(64) Real b[V::count], c[V::count], disc[V::count];
+            save(b, line.b), save(c, line.c), save(disc, line.disc);
+            for (; hit != 0; hit &= hit - 1) {
+                const auto lane = static_cast<std::uint32_t>(std::countr_zero(hit));
+                if (k + lane < spheres.count)
+                    meet(static_cast<std::uint32_t>(r), Chord<Real>{b[lane], c[lane], disc[lane]}, k + lane);
+            }
+        }
+    }
+}
+
+/// Calls meet(ray, chord, sphere) for every sphere (and some in vain) whose line a ray may meet before its limit. meet
+/// lowers the limit.
+template <class V, class Meet>
+ORRERY_INLINE void traverse(const SphereTable<typename V::Real>& spheres, TreeRays<typename V::Real>& rays,
+                            std::uint32_t count, TreeStack<typename V::Real>& stack, const Meet& meet) {
+    using Word = typename V::Word;
+    using U = typename V::U;
+    const auto& tree = spheres.tree;
+    alignas(64) Word places[tree_bunch];
+    for (std::uint32_t i = 0; i < count; ++i) places[i] = i;
+
+    /// The entries of `from` whose `key` has `bit` set (or is equal): to `to`. Returns how many.
+    const auto select = [](const Word* from, const Word* key, std::uint32_t size, Word mask, Word wanted,
+                           Word* to) ORRERY_INLINE_LAMBDA {
+        std::uint32_t chosen = 0;
+        for (std::uint32_t i = 0; i < size; i += V::count) {
+            const auto fits = words_equal(load<U>(key + i) & U(mask), U(wanted)) && first_lanes<V>(size - i);
+            const std::uint32_t lanes = bits(fits);
+            compress_store<V>(to + chosen, load<U>(from + i), lanes);
+            chosen += static_cast<std::uint32_t>(std::popcount(lanes));
+        }
+        return chosen;
+    };
+
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+        const std::uint32_t size = select(places, rays.octant, count, ~Word{0}, octant, stack.ray);
+        if (size == 0) continue;
+        TreeFrame* top = stack.frame;
+        *top = {0, meet_children<V>(tree.nodes[0], rays, octant, stack.ray, size, stack.met),
+                tree.nodes[0].order[octant], 0, size};
+        while (true) {
+            while (top->pending == 0) {
+                if (top == stack.frame) break;
+                --top;
+            }
+            if (top->pending == 0) break;
+            std::uint32_t bit = 0, c = 0;
+            do {
+                c = static_cast<std::uint32_t>(top->order & 15u);
+                top->order >>= 4;
+                bit = 1u << c;
+            } while ((top->pending & bit) == 0);
+            top->pending &= ~bit;
+            const std::uint32_t begin = top->begin + top->size;
+            const std::uint32_t rest =
+                select(stack.ray + top->begin, stack.met + top->begin, top->size, bit, bit, stack.ray + begin);
+            const std::uint32_t child = tree.nodes[top->node].child[c];
+            if ((child & leaf_bit) != 0) {
+                meet_spheres<V>(spheres, child & ~leaf_bit, rays, stack.ray + begin, rest, meet);
+            } else {
+                const auto& node = tree.nodes[child];
+                *++top = {child, meet_children<V>(node, rays, octant, stack.ray + begin, rest, stack.met + begin),
+                          node.order[octant], begin, rest};
+            }
+        }
+    }
+}
+
+}  // namespace orrery::kernels

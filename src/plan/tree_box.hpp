@@ -1,0 +1,34 @@
+// Axis-aligned boxes in registers, for the tree's builder.
+#pragma once
+
+#include <limits>
+
+#include "plan/tree.hpp"
+
+namespace orrery {
+
+using Four = float [[gnu::vector_size(16)]];
+
+inline Four smaller(Four a, Four b) { return a < b ? a : b; }
+inline Four larger(Four a, Four b) { return a > b ? a : b; }
+
+struct Box {
+    Four low = Four{} + std::numeric_limits<float>::infinity();
+    Four high = Four{} - std::numeric_limits<float>::infinity();
+
+    void add(Four from, Four to) {
+        low = smaller(low, from);
+        high = larger(high, to);
+    }
+    void add(const Box& other) { add(other.low, other.high); }
+    /// Half the surface, in double: squares of what a float holds do not overflow there.
+    double area() const {
+        const double x = double{high[0]} - low[0], y = double{high[1]} - low[1], z = double{high[2]} - low[2];
+        return x * y + y * z + z * x;
+    }
+};
+
+inline Four centre_of(const BuildSphere& s) { return Four{s.x, s.y, s.z, 0}; }
+inline Four radius_of(const BuildSphere& s) { return Four{s.radius, s.radius, s.radius, 0}; }
+
+}  // namespace orrery
