@@ -40,8 +40,34 @@ std::optional<mode_t> existing_mode(const fs::path& target) {
     return status.st_mode & mode_t{0777};
 }
 
+}  // namespace
+
+fs::path writable_target(const fs::path& file) {
+    const fs::path target = followed(file);
+    const fs::path folder = folder_of(target);
+    std::error_code error;
+    const fs::file_status folder_status = fs::status(folder, error);
+    if (folder_status.type() == fs::file_type::not_found)
+        throw std::runtime_error(fmt::format("{}: the folder {} does not exist", file.string(), folder.string()));
+    if (error) throw_system_error(file, folder.string(), error.value());
+    if (!fs::is_directory(folder_status)) throw_system_error(file, folder.string(), ENOTDIR);
+
+    const fs::file_status status = fs::status(target, error);
+    if (!target.has_filename() || fs::is_directory(status))
+        throw std::runtime_error(fmt::format("{}: is a directory", file.string()));
+    // A device or a pipe would be replaced by a file under its name.
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        throw std::runtime_error(fmt::format("{}: not a regular file", file.string()));
+    // A rename would replace a write-protected file without asking, which is not what its owner meant.
+    if (fs::exists(status) && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
+        throw_system_error(file, "cannot be replaced", errno);
+    if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
+        throw_system_error(file, fmt::format("cannot write to the folder {}", folder.string()), errno);
+    return target;
+}
+
 /// A temporary file that is gone with its owner unless it was renamed.
-class Temporary {
+class AtomicFile::Temporary {
 public:
     /// Beside the target, since a rename does not cross file systems. The name is short and does not repeat the
     /// target's: that one may be as long as the file system allows.
@@ -79,7 +105,7 @@ private:
     bool exists_;
 };
 
-int Temporary::write(ByteView bytes) {
+int AtomicFile::Temporary::write(ByteView bytes) {
     constexpr std::size_t most_at_once = std::size_t{1} << 30;  // Linux writes at most 2 GiB per call
     while (!bytes.empty()) {
         const ssize_t count = ::write(file_.number(), bytes.data(), std::min(bytes.size(), most_at_once));
@@ -90,64 +116,49 @@ int Temporary::write(ByteView bytes) {
     return 0;
 }
 
-int Temporary::flush() {
+int AtomicFile::Temporary::flush() {
     // Flushed before the rename: otherwise a crash could leave the new name with no content. EINVAL is a file system
     // that has nothing to flush.
     if (::fsync(file_.number()) != 0 && errno != EINVAL) return errno;
     return file_.close();
 }
 
-int Temporary::rename_to(const fs::path& target) {
+int AtomicFile::Temporary::rename_to(const fs::path& target) {
     if (::rename(path_.c_str(), target.c_str()) != 0) return errno;
     exists_ = false;
     return 0;
 }
 
-}  // namespace
+AtomicFile::AtomicFile(const fs::path& file) : file_(file), target_(writable_target(file)) {
+    const std::optional<mode_t> mode = existing_mode(target_);
+    // A name is taken only where an earlier process of this number left it behind, killed without a word.
+    constexpr int attempts = 100;
+    for (int i = 0; i < attempts; ++i) {
+        temporary_.reset();  // before the next: each keeps one of few places
+        temporary_ = std::make_unique<Temporary>(Temporary::next_name(folder_of(target_)));
+        if (temporary_->error() != EEXIST) break;
+    }
+    require("cannot make a temporary beside it", temporary_->error());
+    if (mode) require("cannot set the mode", temporary_->set_mode(*mode));
+}
 
-fs::path writable_target(const fs::path& file) {
-    const fs::path target = followed(file);
-    const fs::path folder = folder_of(target);
-    std::error_code error;
-    const fs::file_status folder_status = fs::status(folder, error);
-    if (folder_status.type() == fs::file_type::not_found)
-        throw std::runtime_error(fmt::format("{}: the folder {} does not exist", file.string(), folder.string()));
-    if (error) throw_system_error(file, folder.string(), error.value());
-    if (!fs::is_directory(folder_status)) throw_system_error(file, folder.string(), ENOTDIR);
+AtomicFile::~AtomicFile() = default;
 
-    const fs::file_status status = fs::status(target, error);
-    if (!target.has_filename() || fs::is_directory(status))
-        throw std::runtime_error(fmt::format("{}: is a directory", file.string()));
-    // A device or a pipe would be replaced by a file under its name.
-    if (fs::exists(status) && !fs::is_regular_file(status))
-        throw std::runtime_error(fmt::format("{}: not a regular file", file.string()));
-    // A rename would replace a write-protected file without asking, which is not what its owner meant.
-    if (fs::exists(status) && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
-        throw_system_error(file, "cannot be replaced", errno);
-    if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
-        throw_system_error(file, fmt::format("cannot write to the folder {}", folder.string()), errno);
-    return target;
+void AtomicFile::write(ByteView bytes) { require("cannot write", temporary_->write(bytes)); }
+
+void AtomicFile::commit() {
+    require("cannot write", temporary_->flush());
+    require("cannot rename the temporary", temporary_->rename_to(target_));
+}
+
+void AtomicFile::require(const char* what, int error) const {
+    if (error != 0) throw_system_error(file_, what, error);
 }
 
 void write_atomically(const fs::path& file, ByteView bytes) {
-    const fs::path target = writable_target(file);
-    const std::optional<mode_t> mode = existing_mode(target);
-
-    // A name is taken only where an earlier process of this number left it behind, killed without a word.
-    constexpr int attempts = 100;
-    std::optional<Temporary> temporary;
-    for (int i = 0; i < attempts; ++i) {
-        temporary.emplace(Temporary::next_name(folder_of(target)));
-        if (temporary->error() != EEXIST) break;
-    }
-    const auto require = [&](const char* what, int error) {
-        if (error != 0) throw_system_error(file, what, error);
-    };
-    require("cannot make a temporary beside it", temporary->error());
-    if (mode) require("cannot set the mode", temporary->set_mode(*mode));
-    require("cannot write", temporary->write(bytes));
-    require("cannot write", temporary->flush());
-    require("cannot rename the temporary", temporary->rename_to(target));
+    AtomicFile whole(file);
+    whole.write(bytes);
+    whole.commit();
 }
 
 }  // namespace orrery

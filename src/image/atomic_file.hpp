@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "image/bytes.hpp"
 #include "image/pending_temporaries.hpp"
@@ -13,9 +14,29 @@ namespace orrery {
 /// regular file or write-protected: what a long render wants to know before it starts.
 std::filesystem::path writable_target(const std::filesystem::path& file);
 
-/// Writes beside the target, flushes to the disk and renames. A failure at any step, a full disk included, leaves the
-/// previous file and no temporary. A new file's mode is what the umask allows, a replaced one keeps its own.
-/// Throws std::runtime_error with the path and the system's reason.
+/// A file in the making, beside its target, for what is written piece by piece. Commit flushes it to the disk and
+/// renames it; a failure at any step, a full disk included, or no commit at all leaves the previous file and no
+/// temporary. A new file's mode is what the umask allows, a replaced one keeps its own.
+/// All throw std::runtime_error with the path and the system's reason.
+class AtomicFile {
+public:
+    explicit AtomicFile(const std::filesystem::path& file);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    void write(ByteView bytes);
+    void commit();
+
+private:
+    class Temporary;
+    void require(const char* what, int error) const;
+
+    std::filesystem::path file_, target_;
+    std::unique_ptr<Temporary> temporary_;
+};
+
+/// All of it at once.
 void write_atomically(const std::filesystem::path& file, ByteView bytes);
 
 }  // namespace orrery
