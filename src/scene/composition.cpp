@@ -1,13 +1,19 @@
 #include "scene/composition.hpp"
 
-#include <map>
-#include <tuple>
+#include <algorithm>
+#include <array>
 #include <utility>
+
+#include "scene/keyed_hash.hpp"
 
 namespace orrery {
 namespace {
 
-const std::string* text_of(const Node& node) { return node.value().get_ptr<const std::string*>(); }
+std::uint64_t place_hash(const Sphere& sphere) {
+    // Adding 0 turns -0 into 0: equal numbers hash alike.
+    const std::array<double, 4> place{sphere.centre.x + 0, sphere.centre.y + 0, sphere.centre.z + 0, sphere.radius + 0};
+    return keyed_hash({reinterpret_cast<const char*>(place.data()), sizeof place});
+}
 
 /// Reads the primitives, and remembers what the lights need to know of them.
 class Primitives {
@@ -16,107 +22,118 @@ public:
         : registries_(registries), report_(report), scene_(scene) {}
 
     void read(const Node& list) {
-        for (std::size_t i = 0; i < list.value().size(); ++i) read_one(Node(list, i));
+        // No more spheres can be part of the image than there are shapes, whatever the length of the list.
+        const std::size_t most = std::min(list.size(), registries_.shapes.entries.size());
+        scene_.primitives.reserve(most);
+        listed_at_.reserve(most);
+        for (std::size_t i = 0; i < list.size(); ++i) read_one(list, i);
     }
 
     /// Whether an emissive primitive carries the light. True as well when a faulty primitive might have been meant to.
-    bool carries(std::string_view light) const { return some_carrier_unknown_ || carried_.contains(light); }
+    bool carries(Name light) const { return some_carrier_unknown_ || carried_.contains(light); }
 
 private:
     enum class Type { geometric, emissive };
 
-    void read_one(const Node& node) {
+    void read_one(const Node& list, std::size_t index) {
+        const Node node(list, index);
         Fields fields(node, "a primitive object", report_);
-        const std::string* label = fields.has("id") ? fields.text("id", "a string") : nullptr;
+        const auto label = fields.has("id") ? fields.text("id", "a string") : std::nullopt;
         const auto type = fields.choice<Type>("type", {{"geometric", Type::geometric}, {"emissive", Type::emissive}});
         const auto shape = fields.any("shape", "the id of a shape");
         const auto material = fields.any("material", "the id of a material");
         const Sphere* sphere = shape ? look_up(*shape, registries_.shapes, fields, report_) : nullptr;
         const Material* surface = material ? look_up(*material, registries_.materials, fields, report_) : nullptr;
         const AreaLight* light = nullptr;
-        if (type == Type::emissive) light = read_light(fields, shape ? text_of(*shape) : nullptr);
+        if (type == Type::emissive) light = read_light(fields, shape ? shape->name() : std::nullopt);
         if (!type) {
             fields.ignore("light");
             some_carrier_unknown_ = true;
         }
         fields.finish();
         if (!sphere || !surface || !type || (*type == Type::emissive && !light)) return;
-        if (is_coincident(node, *sphere)) return;
+        if (is_coincident(list, index, *sphere)) return;
 
         Primitive primitive;
         if (label) primitive.id = *label;
         primitive.centre = sphere->centre;
         primitive.radius = sphere->radius;
-        primitive.material = material_index(*text_of(*material), *surface);
+        primitive.material = material_index(*material, *surface);
         if (light) primitive.emission = light->radiance;
         scene_.primitives.push_back(std::move(primitive));
     }
 
-    const AreaLight* read_light(Fields& fields, const std::string* shape) {
+    const AreaLight* read_light(Fields& fields, std::optional<Name> shape) {
         const auto node = fields.any("light", "the id of an area light");
         const Light* light = node ? look_up(*node, registries_.lights, fields, report_) : nullptr;
         const auto* area = light ? std::get_if<AreaLight>(light) : nullptr;
         if (!area) some_carrier_unknown_ = true;
         if (!light) return nullptr;
 
-        const std::string& id = *text_of(*node);
+        const Name id = *node->name();
+        const auto quoted = [&](Name name) { return in_quotes(node->text(name)); };
         if (!area) {
             fields.fault("light",
-                         fmt::format("found the point light {}, expected the id of an area light", in_quotes(id)));
+                         fmt::format("found the point light {}, expected the id of an area light", quoted(id)));
             return nullptr;
         }
         carried_.insert(id);
         if (shape && area->shape != *shape) {
             fields.fault("light",
                          fmt::format("found {}, a light of shape {}, expected one of this primitive's shape {}",
-                                     in_quotes(id), in_quotes(area->shape), in_quotes(*shape)));
+                                     quoted(id), quoted(area->shape), quoted(*shape)));
             return nullptr;
         }
         return area;
     }
 
     /// Two spheres in one place are one surface: a ray leaving one copy must not find the other at distance zero.
-    bool is_coincident(const Node& node, const Sphere& sphere) {
-        const std::tuple place(sphere.centre.x, sphere.centre.y, sphere.centre.z, sphere.radius);
-        const auto [first, is_new] = places_.try_emplace(place, node.where());
-        if (is_new) return false;
+    bool is_coincident(const Node& list, std::size_t index, const Sphere& sphere) {
+        const auto next = static_cast<std::uint32_t>(scene_.primitives.size());
+        const std::uint32_t first = places_.find_or_insert(place_hash(sphere), next, [&](std::uint32_t i) {
+            return scene_.primitives[i].centre == sphere.centre && scene_.primitives[i].radius == sphere.radius;
+        });
+        if (first == next) {
+            listed_at_.push_back(static_cast<std::uint32_t>(index));
+            return false;
+        }
         report_.add(
-            Severity::warning, node.where(),
+            Severity::warning, Node(list, index).where(),
             fmt::format("found the same sphere as {}, expected each once; the first listed wins and this one is "
                         "no part of the image",
-                        first->second));
+                        Node(list, listed_at_[first]).where()));
         return true;
     }
 
     /// Materials enter the scene on first use, so that none is there that no surviving primitive wears.
-    std::uint32_t material_index(const std::string& id, const Material& material) {
+    std::uint32_t material_index(const Node& id, const Material& material) {
         const auto next = static_cast<std::uint32_t>(scene_.materials.size());
-        const auto [entry, is_new] = material_indices_.try_emplace(id, next);
-        if (is_new) {
-            scene_.materials.push_back(material);
-            scene_.materials.back().id = id;
-        }
-        return entry->second;
+        if (!material_indices_.insert(*id.name(), next)) return *material_indices_.find(*id.name());
+        scene_.materials.push_back(material);
+        scene_.materials.back().id = id.text(*id.name());
+        return next;
     }
 
     const Registries& registries_;
     Report& report_;
     Scene& scene_;
-    std::map<std::tuple<double, double, double, double>, std::string> places_;
-    std::map<std::string_view, std::uint32_t> material_indices_;
-    std::set<std::string_view> carried_;
+    HashIndex places_;                      ///< of the scene's primitives, by centre and radius
+    std::vector<std::uint32_t> listed_at_;  ///< where in the file's list each of them stands
+    NameMap material_indices_;
+    NameSet carried_;
     bool some_carrier_unknown_ = false;
 };
 
 void read_lights(const Node& list, const Registries& registries, const Primitives& primitives, Fields& owner,
                  Report& report, Scene& scene) {
-    std::set<std::string_view> listed;
-    for (std::size_t i = 0; i < list.value().size(); ++i) {
+    NameSet listed;
+    for (std::size_t i = 0; i < list.size(); ++i) {
         const Node node(list, i);
         const Light* light = look_up(node, registries.lights, owner, report);
         if (!light) continue;
-        const std::string& id = *text_of(node);
-        if (!listed.insert(id).second) {
+        const Name name = *node.name();
+        const std::string_view id = node.text(name);
+        if (!listed.insert(name)) {
             report.add(
                 Severity::warning, node.where(),
                 fmt::format("found the light {} a second time, expected it once; it shines once", in_quotes(id)));
@@ -125,7 +142,7 @@ void read_lights(const Node& list, const Registries& registries, const Primitive
         if (const auto* point = std::get_if<PointLight>(light)) {
             scene.point_lights.push_back(*point);
             scene.point_lights.back().id = id;
-        } else if (!primitives.carries(id)) {
+        } else if (!primitives.carries(name)) {
             owner.fault_at(node,
                            fmt::format("found the area light {}, which no primitive carries, expected an emissive "
                                        "primitive with this light",

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <string_view>
 #include <variant>
 
 #include "scene/references.hpp"
@@ -17,7 +16,7 @@ struct Sphere {
 };
 
 struct AreaLight {
-    std::string_view shape;  ///< a shape id
+    Name shape{};  ///< a shape id
     glm::dvec3 radiance{0};
 };
 

@@ -12,41 +12,62 @@ namespace orrery {
 namespace {
 
 /// The integer a JSON number stands for. 512.0 is one, as in JSON Schema; 0.5 and 1e30 are not.
-std::optional<std::int64_t> as_integer(const Json& value) {
+std::optional<std::int64_t> as_integer(const JsonValue& value) {
     constexpr double exact = 9007199254740992.0;  // 2^53: every integer below is a double
     if (!value.is_number()) return std::nullopt;
-    const double number = value.get<double>();
+    const double number = value.number();
     if (std::abs(number) > exact || number != std::floor(number)) return std::nullopt;
     return static_cast<std::int64_t>(number);
 }
 
-std::string found_but_expected(const Json& found, std::string_view expected) {
-    return fmt::format("found {}, expected {}", describe(found), expected);
-}
-
 }  // namespace
 
-Fields::Fields(const Node& node, std::string_view expected, Report& report_to, Severity severity)
-    : node_(node), report_(report_to), severity_(severity) {
-    if (!is_object()) report(node.where(), found_but_expected(node.value(), expected));
+Fields::Fields(const Node& node, std::string_view expected, Report& report_to) : node_(node), report_(report_to) {
+    constexpr std::size_t many = 8;
+    known_.reserve(many);
+    if (!is_object()) report_unexpected(node_, expected);
 }
 
-bool Fields::has(std::string_view key) {
-    if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
-    return is_object() && node_.value().contains(key);
+const JsonValue* Fields::ask(std::string_view key) {
+    for (const Known& known : known_)
+        if (known.key == key) return known.value;
+    const JsonValue* value = is_object() ? search(key) : nullptr;
+    known_.push_back({key, value});
+    if (value) ++found_;
+    return value;
+}
+
+const JsonValue* Fields::search(std::string_view key) {
+    const std::size_t size = node_.size();
+    for (std::size_t i = 0; i < size; ++i, ++next_) {
+        if (next_ >= size) next_ = 0;
+        const JsonValue& member = node_.member(next_);
+        if (node_.key(member) == key) return ++next_, &member;
+    }
+    return nullptr;
+}
+
+template <class Expected>
+const JsonValue* Fields::require(std::string_view key, const Expected& expected) {
+    const JsonValue* value = ask(key);
+    if (!value && is_object()) {
+        report(node_.where(), fmt::format("found no {}, expected {}", in_quotes(key), expected()));
+    }
+    return value;
 }
 
 std::optional<double> Fields::number(std::string_view key, const Range& range) {
-    const Json* value = find(key, describe(range));
+    const JsonValue* value = require(key, [&] { return describe(range); });
     return value ? number_at(Node(node_, key, *value), range) : std::nullopt;
 }
 
 std::optional<glm::dvec3> Fields::triple(std::string_view key, const Range& range) {
-    const Json* value = find(key, "a list of 3 numbers");
+    constexpr std::string_view expected = "a list of 3 numbers";
+    const JsonValue* value = require(key, [&] { return expected; });
     if (!value) return std::nullopt;
     const Node node(node_, key, *value);
-    if (!value->is_array() || value->size() != 3) {
-        report(node.where(), found_but_expected(*value, "a list of 3 numbers"));
+    if (!node.is_list() || node.size() != 3) {
+        report_unexpected(node, expected);
         return std::nullopt;
     }
     // All three are looked at, so that each fault gets its message.
@@ -56,53 +77,62 @@ std::optional<glm::dvec3> Fields::triple(std::string_view key, const Range& rang
 }
 
 std::optional<std::uint32_t> Fields::integer(std::string_view key, std::uint32_t low, std::uint32_t high) {
-    const Json* value = find(key, "an integer");
+    const JsonValue* value = require(key, [] { return "an integer"; });
     return value ? integer_at(Node(node_, key, *value), low, high) : std::nullopt;
 }
 
 std::optional<std::array<std::uint32_t, 2>> Fields::integer_pair(std::string_view key, std::uint32_t low,
                                                                  std::uint32_t high) {
-    const Json* value = find(key, "a list of 2 integers");
+    constexpr std::string_view expected = "a list of 2 integers";
+    const JsonValue* value = require(key, [&] { return expected; });
     if (!value) return std::nullopt;
     const Node node(node_, key, *value);
-    if (!value->is_array() || value->size() != 2) {
-        report(node.where(), found_but_expected(*value, "a list of 2 integers"));
+    if (!node.is_list() || node.size() != 2) {
+        report_unexpected(node, expected);
         return std::nullopt;
     }
     const auto x = integer_at(Node(node, 0), low, high), y = integer_at(Node(node, 1), low, high);
     return x && y ? std::optional(std::array{*x, *y}) : std::nullopt;
 }
 
-const std::string* Fields::text(std::string_view key, std::string_view expected) {
-    const Json* value = find(key, expected);
-    if (!value) return nullptr;
-    const auto* text = value->get_ptr<const std::string*>();
-    if (!text) fault(key, found_but_expected(*value, expected));
-    return text;
+std::optional<Name> Fields::name(std::string_view key, std::string_view expected) {
+    const std::optional<Node> node = any(key, expected);
+    if (node && !node->name()) report_unexpected(*node, expected);
+    return node ? node->name() : std::nullopt;
+}
+
+std::optional<std::string_view> Fields::text(std::string_view key, std::string_view expected) {
+    const std::optional<Name> found = name(key, expected);
+    return found ? std::optional(node_.text(*found)) : std::nullopt;
 }
 
 std::optional<Node> Fields::list(std::string_view key, std::string_view expected) {
-    const std::optional<Node> node = any(key, expected);
-    if (node && !node->value().is_array()) {
-        report(node->where(), found_but_expected(node->value(), expected));
+    std::optional<Node> node = any(key, expected);
+    if (node && !node->is_list()) {
+        report_unexpected(*node, expected);
         return std::nullopt;
     }
     return node;
 }
 
 std::optional<Node> Fields::any(std::string_view key, std::string_view expected) {
-    const Json* value = find(key, expected);
+    const JsonValue* value = require(key, [&] { return expected; });
     return value ? std::optional(Node(node_, key, *value)) : std::nullopt;
 }
 
 void Fields::finish() {
-    if (!is_object()) return;
-    for (const auto& [key, value] : node_.value().items()) {
-        if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-        const std::string_view near = report_.spelling().likely(key, known_);
-        report_.add(Severity::warning, node_.where(key),
-                    fmt::format("found the unknown key {}, which is ignored{}", in_quotes(key),
-                                near.empty() ? "" : fmt::format("; did you mean {}?", in_quotes(near))));
+    if (!is_object() || found_ == node_.size()) return;
+    std::vector<std::string_view> known, unknown;
+    for (const Known& asked : known_) known.push_back(asked.key);
+    for (std::size_t i = 0; i < node_.size(); ++i) {
+        const std::string_view key = node_.key(node_.member(i));
+        if (std::find(known.begin(), known.end(), key) == known.end()) unknown.push_back(key);
+    }
+    std::sort(unknown.begin(), unknown.end());
+    for (const std::string_view key : unknown) {
+        const std::string_view near = report_.spelling().likely(key, known);
+        warn(key, fmt::format("found the unknown key {}, which is ignored{}", in_quotes(key),
+                              near.empty() ? "" : fmt::format("; did you mean {}?", in_quotes(near))));
     }
 }
 
@@ -115,37 +145,31 @@ void Fields::warn(std::string_view key, std::string message) {
 }
 
 std::optional<std::size_t> Fields::choice_index(std::string_view key, std::span<const std::string_view> words) {
-    const std::string expected = fmt::format("one of \"{}\"", fmt::join(words, "\", \""));
-    const std::string* word = text(key, expected);
-    if (!word) return std::nullopt;
-    const auto found = std::find(words.begin(), words.end(), *word);
+    const auto expected = [&] { return fmt::format("one of \"{}\"", fmt::join(words, "\", \"")); };
+    const JsonValue* value = require(key, expected);
+    if (!value) return std::nullopt;
+    const Node node(node_, key, *value);
+    if (!node.name()) {
+        report_unexpected(node, expected());
+        return std::nullopt;
+    }
+    const std::string_view word = node.text(*node.name());
+    const auto found = std::find(words.begin(), words.end(), word);
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-    const std::string_view near = report_.spelling().nearest(*word, words);
-    fault(key, fmt::format("found {}, expected {}{}", in_quotes(*word), expected,
+    const std::string_view near = report_.spelling().nearest(word, words);
+    fault(key, fmt::format("found {}, expected {}{}", in_quotes(word), expected(),
                            near.empty() ? "" : fmt::format("; the nearest is {}", in_quotes(near))));
     return std::nullopt;
 }
 
-const Json* Fields::find(std::string_view key, std::string_view expected) {
-    if (has(key)) return &*node_.value().find(key);
-    if (is_object()) report(node_.where(), fmt::format("found no {}, expected {}", in_quotes(key), expected));
-    return nullptr;
-}
-
-void Fields::report(std::string where, std::string message) {
-    if (severity_ == Severity::warning) message += " (in an entry that the scene does not use)";
-    report_.add(severity_, std::move(where), std::move(message));
-}
-
 std::optional<double> Fields::number_at(const Node& node, const Range& range) {
-    const Json& value = node.value();
-    if (!value.is_number()) {
-        report(node.where(), found_but_expected(value, describe(range)));
+    if (!node.value().is_number()) {
+        report_unexpected(node, describe(range));
         return std::nullopt;
     }
-    const double number = value.get<double>();
+    const double number = node.value().number();
     if (const auto expected = expectation(range, number)) {
-        report(node.where(), found_but_expected(value, *expected));
+        report_unexpected(node, *expected);
         return std::nullopt;
     }
     return number;
@@ -154,10 +178,19 @@ std::optional<double> Fields::number_at(const Node& node, const Range& range) {
 std::optional<std::uint32_t> Fields::integer_at(const Node& node, std::uint32_t low, std::uint32_t high) {
     const std::optional<std::int64_t> integer = as_integer(node.value());
     if (!integer || *integer < low || *integer > high) {
-        report(node.where(), found_but_expected(node.value(), fmt::format("an integer from {} to {}", low, high)));
+        report_unexpected(node, fmt::format("an integer from {} to {}", low, high));
         return std::nullopt;
     }
     return static_cast<std::uint32_t>(*integer);
+}
+
+void Fields::report(std::string where, std::string message) {
+    if (severity_ == Severity::warning) message += " (in an entry that the scene does not use)";
+    report_.add(severity_, std::move(where), std::move(message));
+}
+
+void Fields::report_unexpected(const Node& node, std::string_view expected) {
+    report(node.where(), fmt::format("found {}, expected {}", node.describe(), expected));
 }
 
 }  // namespace orrery

@@ -27,23 +27,27 @@ struct Choice {
 /// for are the known ones: finish() names all others, so no list of keys can drift from the code that reads them.
 class Fields {
 public:
-    /// Faults are reported with `severity`: warnings in a registry entry that the composition does not use.
     /// A `node` that is no object is reported as not being `expected`; all its fields then read as empty in silence.
-    Fields(const Node& node, std::string_view expected, Report& report, Severity severity = Severity::error);
+    Fields(const Node& node, std::string_view expected, Report& report);
     Fields(const Fields&) = delete;
     Fields& operator=(const Fields&) = delete;
 
-    bool is_object() const { return node_.value().is_object(); }
+    /// With which severity faults are reported from here on: warnings in a registry entry that the composition does
+    /// not use. Errors unless told.
+    void judge(Severity severity) { severity_ = severity; }
+
+    bool is_object() const { return node_.is_object(); }
 
     /// Whether the key is there; for optional fields.
-    bool has(std::string_view key);
+    bool has(std::string_view key) { return ask(key) != nullptr; }
 
     std::optional<double> number(std::string_view key, const Range& range);
     std::optional<glm::dvec3> triple(std::string_view key, const Range& range);
     std::optional<std::uint32_t> integer(std::string_view key, std::uint32_t low, std::uint32_t high);
     std::optional<std::array<std::uint32_t, 2>> integer_pair(std::string_view key, std::uint32_t low,
                                                              std::uint32_t high);
-    const std::string* text(std::string_view key, std::string_view expected);
+    std::optional<Name> name(std::string_view key, std::string_view expected);
+    std::optional<std::string_view> text(std::string_view key, std::string_view expected);
     std::optional<Node> list(std::string_view key, std::string_view expected);
     std::optional<Node> any(std::string_view key, std::string_view expected);
 
@@ -56,7 +60,7 @@ public:
     }
 
     /// Declares a key known that is not read.
-    void ignore(std::string_view key) { has(key); }
+    void ignore(std::string_view key) { ask(key); }
 
     /// Warns about every key nobody asked for.
     void finish();
@@ -69,16 +73,29 @@ public:
     void warn(std::string_view key, std::string message);
 
 private:
+    /// A key that was asked for, and its value where it has one.
+    struct Known {
+        std::string_view key;
+        const JsonValue* value;
+    };
+
+    const JsonValue* ask(std::string_view key);
+    const JsonValue* search(std::string_view key);
+    /// The value of a key that has to be there; `expected()` says what it should be where it is not.
+    template <class Expected>
+    const JsonValue* require(std::string_view key, const Expected& expected);
     std::optional<std::size_t> choice_index(std::string_view key, std::span<const std::string_view> words);
-    const Json* find(std::string_view key, std::string_view expected);
-    void report(std::string where, std::string message);
     std::optional<double> number_at(const Node& node, const Range& range);
     std::optional<std::uint32_t> integer_at(const Node& node, std::uint32_t low, std::uint32_t high);
+    void report(std::string where, std::string message);
+    void report_unexpected(const Node& node, std::string_view expected);
 
     Node node_;
     Report& report_;
-    Severity severity_;
-    std::vector<std::string_view> known_;
+    Severity severity_ = Severity::error;
+    std::vector<Known> known_;
+    std::size_t found_ = 0;  ///< how many of known_ have a value
+    std::size_t next_ = 0;   ///< the member behind the last one found: files list fields in the order they are read
 };
 
 }  // namespace orrery

@@ -22,31 +22,32 @@ std::string pointer_token(std::string_view key) {
 
 std::string Node::where() const {
     if (parent_ == nullptr) return "";
-    if (parent_->value_->is_array()) return fmt::format("{}/{}", parent_->where(), index_);
+    if (parent_->is_list()) return fmt::format("{}/{}", parent_->where(), index_);
     return parent_->where(key_);
 }
 
 std::string Node::where(std::string_view key) const { return where() + '/' + pointer_token(key); }
 
-std::string describe(const Json& value) {
-    switch (value.type()) {
-        case Json::value_t::string:
-            return in_quotes(*value.get_ptr<const std::string*>());
-        case Json::value_t::boolean:
-            return value.get<bool>() ? "true" : "false";
-        case Json::value_t::number_integer:
-            return fmt::format("{}", value.get<std::int64_t>());
-        case Json::value_t::number_unsigned:
-            return fmt::format("{}", value.get<std::uint64_t>());
-        case Json::value_t::number_float:
-            return fmt::format("{}", value.get<double>());
-        case Json::value_t::array:
-            return fmt::format("a list of {}", value.size());
-        case Json::value_t::object:
+std::string Node::describe() const {
+    switch (value_->kind) {
+        case JsonKind::text:
+            return in_quotes(text(value_->name()));
+        case JsonKind::boolean:
+            return value_->bits != 0 ? "true" : "false";
+        case JsonKind::negative:
+            return fmt::format("{}", static_cast<std::int64_t>(value_->bits));
+        case JsonKind::natural:
+            return fmt::format("{}", value_->bits);
+        case JsonKind::real:
+            return fmt::format("{}", value_->number());
+        case JsonKind::list:
+            return fmt::format("a list of {}", size());
+        case JsonKind::object:
             return "an object";
-        default:
-            return "null";
+        case JsonKind::null:
+            break;
     }
+    return "null";
 }
 
 }  // namespace orrery

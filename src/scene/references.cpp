@@ -1,39 +1,52 @@
 #include "scene/references.hpp"
 
+#include <string_view>
+
 namespace orrery {
 namespace {
 
-const Json* member(const Json& object, std::string_view key) {
-    if (!object.is_object()) return nullptr;
-    const auto found = object.find(key);
-    return found == object.end() ? nullptr : &*found;
-}
+class Finder {
+public:
+    explicit Finder(const JsonTree& tree) : tree_(tree) {}
 
-const Json::array_t& members(const Json& object, std::string_view key) {
-    static const Json::array_t none;
-    const Json* list = member(object, key);
-    const auto* array = list ? list->get_ptr<const Json::array_t*>() : nullptr;
-    return array ? *array : none;
-}
+    const JsonValue* member(const JsonValue& object, std::string_view key) const {
+        if (object.kind != JsonKind::object) return nullptr;
+        for (std::size_t i = 0; i < object.size; ++i) {
+            const JsonValue& value = tree_.child(object, i);
+            if (tree_.names().text(value.key_name()) == key) return &value;
+        }
+        return nullptr;
+    }
 
-void insert_text(std::set<std::string_view>& ids, const Json* value) {
-    if (value && value->is_string()) ids.insert(*value->get_ptr<const std::string*>());
-}
+    void insert_text(NameSet& ids, const JsonValue* value) const {
+        if (value && value->is_text()) ids.insert(value->name());
+    }
+
+    template <class Visit>
+    void each(const JsonValue* list, const Visit& visit) const {
+        if (!list || list->kind != JsonKind::list) return;
+        for (std::size_t i = 0; i < list->size; ++i) visit(tree_.child(*list, i));
+    }
+
+private:
+    const JsonTree& tree_;
+};
 
 }  // namespace
 
-References find_references(const Json& root) {
+References find_references(const JsonTree& tree) {
     References ids;
-    const Json* scene = member(root, "scene");
+    const Finder find(tree);
+    const JsonValue* scene = find.member(tree.root(), "scene");
     if (!scene) return ids;
 
-    insert_text(ids.cameras, member(*scene, "camera"));
-    for (const Json& light : members(*scene, "lights")) insert_text(ids.lights, &light);
-    for (const Json& primitive : members(*scene, "primitives")) {
-        insert_text(ids.shapes, member(primitive, "shape"));
-        insert_text(ids.materials, member(primitive, "material"));
-        insert_text(ids.lights, member(primitive, "light"));
-    }
+    find.insert_text(ids.cameras, find.member(*scene, "camera"));
+    find.each(find.member(*scene, "lights"), [&](const JsonValue& light) { find.insert_text(ids.lights, &light); });
+    find.each(find.member(*scene, "primitives"), [&](const JsonValue& primitive) {
+        find.insert_text(ids.shapes, find.member(primitive, "shape"));
+        find.insert_text(ids.materials, find.member(primitive, "material"));
+        find.insert_text(ids.lights, find.member(primitive, "light"));
+    });
     return ids;
 }
 

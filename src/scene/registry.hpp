@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,40 +15,38 @@ namespace orrery {
 
 template <class Entry>
 struct Registry {
-    std::string_view kind;    ///< what an entry is called in messages: "material"
-    bool is_readable = true;  ///< false when the list itself is missing: one message about that is enough
-    std::map<std::string_view, std::optional<Entry>> entries;  ///< empty entry: faulty, and reported where it stands
-    std::vector<std::string_view> ids;                         ///< in file order
+    std::string_view kind;                      ///< what an entry is called in messages: "material"
+    bool is_readable = true;                    ///< false when the list itself is missing: one message is enough
+    NameMap places;                             ///< id -> place in the two below, which are in file order
+    std::vector<std::optional<Entry>> entries;  ///< empty entry: faulty, and reported where it stands
+    std::vector<std::string_view> ids;
 };
 
 /// Reads the list `key` of the root with `read_entry(Fields&) -> std::optional<Entry>`. An entry without an id is an
 /// error even though nothing can refer to it: the file is not of the format.
 template <class Entry, class ReadEntry>
-Registry<Entry> read_registry(Fields& root, std::string_view key, std::string_view kind,
-                              const std::set<std::string_view>& used, Report& report, const ReadEntry& read_entry) {
-    Registry<Entry> registry{.kind = kind, .entries = {}, .ids = {}};
+Registry<Entry> read_registry(Fields& root, std::string_view key, std::string_view kind, const NameSet& used,
+                              Report& report, const ReadEntry& read_entry) {
+    Registry<Entry> registry{.kind = kind, .places = {}, .entries = {}, .ids = {}};
     const std::optional<Node> list = root.list(key, fmt::format("a list of {} (empty will do)", key));
     registry.is_readable = list.has_value();
-    for (std::size_t i = 0; list && i < list->value().size(); ++i) {
+    const std::string expected = fmt::format("a {} object", kind);
+    for (std::size_t i = 0; list && i < list->size(); ++i) {
         const Node node(*list, i);
-        const std::string expected = fmt::format("a {} object", kind);
-        const std::string* id = nullptr;
-        {
-            Fields head(node, expected, report);
-            if (head.is_object()) id = head.text("id", "a string");
-        }
+        Fields fields(node, expected, report);
+        const std::optional<Name> id = fields.is_object() ? fields.name("id", "a string") : std::nullopt;
         if (!id) continue;
 
-        Fields fields(node, expected, report, used.contains(*id) ? Severity::error : Severity::warning);
-        fields.ignore("id");
+        fields.judge(used.contains(*id) ? Severity::error : Severity::warning);
         std::optional<Entry> entry = read_entry(fields);
         fields.finish();
-        if (registry.entries.try_emplace(*id, std::move(entry)).second) {
-            registry.ids.push_back(*id);
+        if (registry.places.insert(*id, static_cast<std::uint32_t>(registry.ids.size()))) {
+            registry.entries.push_back(std::move(entry));
+            registry.ids.push_back(node.text(*id));
         } else {
-            report.add(
-                Severity::error, node.where("id"),
-                fmt::format("found the id {} a second time, expected ids unique among the {}", in_quotes(*id), key));
+            report.add(Severity::error, node.where("id"),
+                       fmt::format("found the id {} a second time, expected ids unique among the {}",
+                                   in_quotes(node.text(*id)), key));
         }
     }
     return registry;
@@ -61,15 +57,17 @@ Registry<Entry> read_registry(Fields& root, std::string_view key, std::string_vi
 template <class Entry>
 const Entry* look_up(const Node& node, const Registry<Entry>& registry, Fields& owner, Report& report) {
     if (!registry.is_readable) return nullptr;
-    const auto* id = node.value().get_ptr<const std::string*>();
-    const auto found = id ? registry.entries.find(*id) : registry.entries.end();
-    if (found != registry.entries.end()) return found->second ? &*found->second : nullptr;
+    const std::optional<Name> id = node.name();
+    if (const auto place = id ? registry.places.find(*id) : std::nullopt) {
+        const std::optional<Entry>& entry = registry.entries[*place];
+        return entry ? &*entry : nullptr;
+    }
 
-    std::string message = fmt::format("found {}, expected the id of a {}", describe(node.value()), registry.kind);
+    std::string message = fmt::format("found {}, expected the id of a {}", node.describe(), registry.kind);
     if (registry.ids.empty()) {
         message += fmt::format("; no {} is declared", registry.kind);
     } else if (id) {
-        const std::string_view near = report.spelling().nearest(*id, registry.ids);
+        const std::string_view near = report.spelling().nearest(node.text(*id), registry.ids);
         if (!near.empty()) message += fmt::format("; the nearest is {}", in_quotes(near));
     }
     owner.fault_at(node, std::move(message));

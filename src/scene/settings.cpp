@@ -24,7 +24,7 @@ void read_dimensions(Fields& fields, RenderSettings& settings) {
 
 void read_output(Fields& fields, const std::filesystem::path& folder, RenderSettings& settings) {
     if (!fields.has("output")) return;  // the command line may name it
-    const std::string* output = fields.text("output", "a file path");
+    const std::optional<std::string_view> output = fields.text("output", "a file path");
     if (!output) return;
     // A path with a NUL would be cut there by the operating system, and another file written.
     if (output->empty() || output->find('\0') != std::string::npos) {
@@ -37,8 +37,8 @@ void read_output(Fields& fields, const std::filesystem::path& folder, RenderSett
 void read_roulette(Fields& fields, RenderSettings& settings) {
     if (!fields.has("roulette")) return;
     const auto node = fields.any("roulette", "\"on\" or \"off\"");
-    if (node->value().is_boolean()) {
-        settings.roulette = node->value().get<bool>();
+    if (node->value().kind == JsonKind::boolean) {
+        settings.roulette = node->value().bits != 0;
     } else if (const auto word = fields.choice<bool>("roulette", {{"on", true}, {"off", false}})) {
         settings.roulette = *word;
     }
