@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "cli/exit_code.hpp"
+#include "cli/generate_arguments.hpp"
+#include "cli/option.hpp"
 #include "cli/values.hpp"
 #include "cli/version.hpp"
 
@@ -17,64 +19,34 @@ constexpr std::uint32_t any = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t most_threads = 1024;
 constexpr std::uint32_t largest_wave = 1u << 20;
 constexpr std::size_t option_column = 38;
-constexpr std::size_t help_column = 62;
-
-/// Lines of at most help_column characters: CLI11 indents the lines of a description but does not make them.
-std::string wrapped(const std::string& text) {
-    std::string lines;
-    std::size_t used = 0;
-    std::istringstream words(text);
-    for (std::string word; words >> word; used += word.size()) {
-        if (used > 0) {
-            const bool fits = used + 1 + word.size() <= help_column;
-            lines += fits ? ' ' : '\n';
-            used = fits ? used + 1 : 0;
-        }
-        lines += word;
-    }
-    return lines;
-}
-
-/// `read` turns the option's text into a value in Arguments; its UsageError gets the option's name in front.
-template <class Read>
-CLI::Option* add(CLI::App& app, const char* name, const std::string& label, const std::string& help, Read read) {
-    const auto named = [name, read](const std::string& text) {
-        try {
-            read(text);
-        } catch (const UsageError& error) {
-            throw CLI::ValidationError(name, error.what());
-        }
-    };
-    return app.add_option_function<std::string>(name, named, wrapped(help))->type_name(label);
-}
 
 template <class Value, std::size_t count>
 void add_choice(CLI::App& app, const char* name, const Words<Value, count>& words, const std::string& help,
                 std::optional<Value>& choice) {
-    add(app, name, alternatives(words), help, [&](const std::string& text) {
+    add_option(app, name, alternatives(words), help, [&](const std::string& text) {
         choice = parse_word(text, words);
     })->group("Method");
 }
 
 void add_number(CLI::App& app, const char* name, const char* group, const std::string& help,
                 std::optional<std::uint32_t>& number, std::uint32_t low, std::uint32_t high) {
-    add(app, name, "N", help, [&number, low, high](const std::string& text) {
+    add_option(app, name, "N", help, [&number, low, high](const std::string& text) {
         number = parse_integer(text, low, high);
     })->group(group);
 }
 
 void add_scene(CLI::App& app, Arguments& arguments) {
-    add(app, "SCENE", "FILE", "The scene to read, a JSON file",
-        [&](const std::string& text) { arguments.scene = text; })
+    add_option(app, "SCENE", "FILE", "The scene to read, a JSON file",
+               [&](const std::string& text) { arguments.scene = text; })
         ->required()
         ->group("Scene");
 }
 
 void add_outputs(CLI::App& app, Arguments& arguments) {
-    add(app, "-o,--output", "FILE",
-        "Image to write: .ppm or .png (8 bit, tone mapped), .pfm or .exr (linear radiance); repeat it for more "
-        "(default: the scene's output)",
-        [&](const std::string& text) { arguments.outputs.emplace_back(text); })
+    add_option(app, "-o,--output", "FILE",
+               "Image to write: .ppm or .png (8 bit, tone mapped), .pfm or .exr (linear radiance); repeat it for more "
+               "(default: the scene's output)",
+               [&](const std::string& text) { arguments.outputs.emplace_back(text); })
         // Each -o is read on its own: a list option of CLI11 would also swallow the SCENE after it.
         ->trigger_on_parse()
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
@@ -83,8 +55,8 @@ void add_outputs(CLI::App& app, Arguments& arguments) {
 
 void add_image(CLI::App& app, Overrides& overrides) {
     const std::string scene = " (default: the scene's)";
-    add(app, "--size", "WxH", "Image size in pixels; the camera's view stays as it is" + scene,
-        [&](const std::string& text) { overrides.size = parse_size(text); })
+    add_option(app, "--size", "WxH", "Image size in pixels; the camera's view stays as it is" + scene,
+               [&](const std::string& text) { overrides.size = parse_size(text); })
         ->group("Image");
     add_number(
         app, "--spp", "Image",
@@ -93,7 +65,8 @@ void add_image(CLI::App& app, Overrides& overrides) {
     add_number(app, "--seed", "Image",
                "Another seed is another noise; the same one, the same file (default: the scene's, else 0)",
                overrides.seed, 0, any);
-    add(app, "--tonemap", alternatives(tonemap_words),
+    add_option(
+        app, "--tonemap", alternatives(tonemap_words),
         "How radiance becomes 8 bit: I/(1+I), I/max(I), or I cut off at 1 (default: the scene's, else sigmoid; for "
         "depth images none)",
         [&](const std::string& text) { overrides.tonemap = parse_word(text, tonemap_words); })
@@ -123,25 +96,27 @@ void add_method(CLI::App& app, Overrides& overrides) {
 
 void add_machine(CLI::App& app, Arguments& arguments) {
     const char* group = "Machine (these change no image beyond rounding)";
-    add(app, "--threads", "N", "How many threads (default: all cores)", [&](const std::string& text) {
+    add_option(app, "--threads", "N", "How many threads (default: all cores)", [&](const std::string& text) {
         arguments.threads = parse_integer(text, 1, most_threads);
     })->group(group);
-    add(app, "--isa", "auto|scalar|sse2|avx2|avx512", "Instruction set (default: auto, the best this machine has)",
-        [&](const std::string& text) { arguments.isa = parse_isa(text); })
+    add_option(app, "--isa", "auto|scalar|sse2|avx2|avx512",
+               "Instruction set (default: auto, the best this machine has)",
+               [&](const std::string& text) { arguments.isa = parse_isa(text); })
         ->group(group);
-    add(app, "--precision", "float", "Number type to compute in (default: float, the only one there is)",
-        [](const std::string& text) {
-            if (text != "float") throw unexpected(text, "float, the only precision this version computes in");
-        })
+    add_option(app, "--precision", "float", "Number type to compute in (default: float, the only one there is)",
+               [](const std::string& text) {
+                   if (text != "float") throw unexpected(text, "float, the only precision this version computes in");
+               })
         ->group(group);
-    add(app, "--wave-size", "N", "For experts: samples traced together per thread (default: what fits its cache)",
-        [&](const std::string& text) { arguments.wave_size = parse_integer(text, 1, largest_wave); })
+    add_option(app, "--wave-size", "N",
+               "For experts: samples traced together per thread (default: what fits its cache)",
+               [&](const std::string& text) { arguments.wave_size = parse_integer(text, 1, largest_wave); })
         ->group(group);
 }
 
 void add_reports(CLI::App& app, Arguments& arguments) {
-    add(app, "--stats", "FILE.json", "Write times, ray counts and the plan as JSON; - is standard output",
-        [&](const std::string& text) { arguments.stats = text; })
+    add_option(app, "--stats", "FILE.json", "Write times, ray counts and the plan as JSON; - is standard output",
+               [&](const std::string& text) { arguments.stats = text; })
         ->group("Reports");
 }
 
@@ -169,8 +144,9 @@ Answer failure(const CLI::App& app, const CLI::ParseError& error) {
     const auto chosen = app.get_subcommands();
     const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
     // CLI11 says that a subcommand is required, not which there are.
-    const std::string fault =
-        chosen.empty() && error.get_name() == "RequiredError" ? "expected a command, render or info" : error.what();
+    const std::string fault = chosen.empty() && error.get_name() == "RequiredError"
+                                  ? "expected a command, render, info or generate"
+                                  : error.what();
     return {exit_code::misused, "", fmt::format("orrery: error: {}\nTry: orrery{} --help\n", fault, command)};
 }
 
@@ -203,6 +179,10 @@ std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv
     add_quiet(info, arguments);
     info.footer(info_example);
 
+    CLI::App& generate = *app.add_subcommand("generate", "Write a scene of as many spheres as you like");
+    add_generation(generate, arguments.generation);
+    add_quiet(generate, arguments);
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -211,7 +191,7 @@ std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv
         app.exit(error, output, unused);  // help or version
         return Answer{exit_code::done, output.str(), ""};
     }
-    arguments.command = info.parsed() ? Command::info : Command::render;
+    arguments.command = info.parsed() ? Command::info : generate.parsed() ? Command::generate : Command::render;
     return arguments;
 }
 

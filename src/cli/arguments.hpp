@@ -10,15 +10,25 @@
 
 #include "cli/overrides.hpp"
 #include "kernels/isa.hpp"
+#include "worlds/world.hpp"
 
 namespace orrery {
 
-enum class Command { render, info };
+enum class Command { render, info, generate };
+
+/// What `orrery generate` is to write, and where.
+struct Generation {
+    worlds::Kind kind = worlds::Kind::random;
+    std::uint32_t spheres = 0;
+    std::uint32_t seed = 0;
+    std::optional<std::filesystem::path> output;  ///< empty: standard output
+};
 
 struct Arguments {
     Command command = Command::render;
     std::filesystem::path scene;
     Overrides overrides;
+    Generation generation;
     std::vector<std::filesystem::path> outputs;  ///< empty: where the scene says
     std::optional<std::string> stats;            ///< a file, or "-" for standard output
     unsigned threads = 0;                        ///< 0: all cores

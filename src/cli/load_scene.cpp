@@ -1,11 +1,23 @@
+#include <fmt/format.h>
+
 #include "cli/commands.hpp"
+#include "cli/late_notice.hpp"
 #include "cli/standard_streams.hpp"
 #include "scene/read.hpp"
 
 namespace orrery {
 
+namespace {
+
+ReadResult read_visibly(const Arguments& arguments) {
+    const LateNotice notice(!arguments.quiet, fmt::format("reading {} ...", arguments.scene.filename().string()));
+    return read_scene(arguments.scene);
+}
+
+}  // namespace
+
 std::optional<Scene> load_scene(const Arguments& arguments) {
-    ReadResult result = read_scene(arguments.scene);
+    ReadResult result = read_visibly(arguments);
     for (const Diagnostic& diagnostic : result.diagnostics) {
         if (diagnostic.severity == Severity::warning && arguments.quiet) continue;
         print_message(format_diagnostic(arguments.scene.string(), diagnostic) + "\n");

@@ -22,6 +22,8 @@ int run(int argc, const char* const* argv) {
             return render_command(arguments);
         case Command::info:
             return info_command(arguments);
+        case Command::generate:
+            return generate_command(arguments);
     }
     return exit_code::misused;
 }

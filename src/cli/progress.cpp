@@ -15,14 +15,13 @@ namespace {
 constexpr std::size_t longest_line = 79;
 constexpr std::size_t shortest_bar = 10;
 
-/// One less than the terminal has: in the last column many a terminal begins a new line.
+}  // namespace
+
 std::size_t usable_columns() {
     winsize size = {};
     if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return longest_line;
     return std::min<std::size_t>(size.ws_col - 1u, longest_line);
 }
-
-}  // namespace
 
 std::string duration_text(double seconds) {
     // Beyond a century nobody counts, and the conversion below stays in range.

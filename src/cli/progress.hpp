@@ -15,6 +15,10 @@ std::string progress_line(double fraction, std::uint64_t rays, double seconds, s
 /// "7 s", "1:23" or "4:05:06".
 std::string duration_text(double seconds);
 
+/// How many characters a line on the terminal of standard error may take, at most 79. One less than it has: in the last
+/// column many a terminal begins a new line.
+std::size_t usable_columns();
+
 class ProgressBar {
 public:
     /// Draws nothing where standard error is no terminal, or when it is not `wanted`.

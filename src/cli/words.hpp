@@ -1,4 +1,5 @@
-// The words of the command line for the choices of RenderSettings: one table each, for reading and for printing.
+// The words of the command line for the choices of RenderSettings and of worlds: one table each, for reading and for
+// printing.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 #include <string_view>
 
 #include "scene/scene.hpp"
+#include "worlds/world.hpp"
 
 namespace orrery {
 
@@ -31,6 +33,11 @@ inline constexpr Words<LightSampling, 2> light_sampling_words = {
 inline constexpr Words<bool, 2> switch_words = {{{"on", true}, {"off", false}}};
 inline constexpr Words<ToneMap, 3> tonemap_words = {
     {{"sigmoid", ToneMap::sigmoid}, {"linear", ToneMap::linear}, {"none", ToneMap::none}}};
+
+inline constexpr Words<worlds::Kind, 4> world_words = {{{"random", worlds::Kind::random},
+                                                        {"lattice", worlds::Kind::lattice},
+                                                        {"cluster", worlds::Kind::cluster},
+                                                        {"cosmos", worlds::Kind::cosmos}}};
 
 template <class Value, std::size_t count>
 constexpr std::string_view word_for(const Words<Value, count>& words, Value value) {

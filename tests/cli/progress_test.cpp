@@ -3,9 +3,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
 
 #include "program.hpp"
 #include "pseudo_terminal.hpp"
+#include "world.hpp"
 
 namespace orrery::test {
 namespace {
@@ -13,6 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 TEST(Progress, LineTellsPercentRateAndTimeLeft) {
     EXPECT_EQ(progress_line(0.25, 3'000'000, 2, 79),
@@ -74,6 +81,45 @@ TEST(Progress, IsAbsentWhenQuiet) {
     arguments.push_back("--quiet");
     orrery(arguments, {.terminal = terminal.program_side()});
     EXPECT_EQ(terminal.shown(), "");
+}
+
+/// A scene that is read from a pipe: it takes as long as the test likes.
+class SlowScene : public ::testing::Test {
+protected:
+    SlowScene() { EXPECT_EQ(::mkfifo(pipe_.c_str(), 0600), 0); }
+
+    /// Renders from the pipe; `meanwhile` is called between two halves of the text.
+    template <class Meanwhile>
+    Outcome render(std::vector<std::string> options, const Meanwhile& meanwhile) {
+        std::vector<std::string> arguments{"render", pipe_.string(), "-o", (folder_ / "x.ppm").string()};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        Program program(arguments, {.terminal = terminal_.program_side()});
+        const std::string text = small_world().dump();
+        std::ofstream stream(pipe_);
+        stream << text.substr(0, text.size() / 2) << std::flush;
+        meanwhile();
+        stream << text.substr(text.size() / 2) << std::flush;
+        stream.close();
+        return program.wait();
+    }
+
+    PseudoTerminal terminal_;
+    const TemporaryFolder folder_;
+
+private:
+    const std::filesystem::path pipe_ = folder_ / "slow.json";
+};
+
+TEST_F(SlowScene, SaysThatItIsReadAndTakesThatBack) {
+    const Outcome outcome = render({}, [&] { EXPECT_TRUE(terminal_.shows("reading slow.json ...")); });
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(terminal_.shown(), StartsWith("\rreading slow.json ...\r                     \r"));
+}
+
+TEST_F(SlowScene, SaysNothingWhenQuiet) {
+    const Outcome outcome = render({"--quiet"}, [] { std::this_thread::sleep_for(std::chrono::milliseconds(1500)); });
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(terminal_.shown(), "");
 }
 
 }  // namespace

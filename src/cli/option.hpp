@@ -1,0 +1,28 @@
+// How an option of a command is declared.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "cli/exit_code.hpp"
+
+namespace orrery {
+
+/// Lines as wide as the help's column: CLI11 indents the lines of a description but does not make them.
+std::string wrapped(const std::string& text);
+
+/// `read` takes the option's text; its UsageError gets the option's name in front. `label` stands for the value in the
+/// help.
+template <class Read>
+CLI::Option* add_option(CLI::App& app, const char* name, const std::string& label, const std::string& help, Read read) {
+    const auto named = [name, read](const std::string& text) {
+        try {
+            read(text);
+        } catch (const UsageError& error) {
+            throw CLI::ValidationError(name, error.what());
+        }
+    };
+    return app.add_option_function<std::string>(name, named, wrapped(help))->type_name(label);
+}
+
+}  // namespace orrery
