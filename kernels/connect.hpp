@@ -115,12 +115,13 @@ struct AreaSampler {
     ORRERY_INLINE Arrival<V> operator()(const RayQueue<typename V::Real>& rays, const LitVertex<V>& vertex) const {
         using F = typename V::F;
         using U = typename V::U;
-        const Sphere<F> sphere{{F(light.cx), F(light.cy), F(light.cz)}, F(light.radius)};
+        const Sphere<F> sphere{
+            {F(light.cx), F(light.cy), F(light.cz)}, F(light.radius), F(light.radius * light.radius)};
         const RandomKey key{context.seed, Dimension::light, context.light};
         const auto random = random_for<V>(context.slots, rays, vertex.i, key, context.bounce, vertex.slot);
         // On the light itself its side is known; elsewhere the power of the point tells, as in `chord`.
         const auto own = words_equal(vertex.sphere, U(light.sphere));
-        const auto within = power_of_point(vertex.position - sphere.centre, sphere.radius) < F(0);
+        const auto within = power_of_point(vertex.position - sphere.centre, sphere.radius2) < F(0);
         const auto inside = (own && vertex.inward) || (!own && within);
         LightSample<V> sample;
         if constexpr (strategy == LightStrategy::cone) {
@@ -157,18 +158,21 @@ ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<typename V::Real>& 
     std::uint32_t size = 0;
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
-        const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
-        const auto live = first_lanes<V>(run.count - n) && max(throughput.x, max(throughput.y, throughput.z)) != F(0);
-        const U left = choose(live, load<U>(rays.left + i), U(0u));
-        const U slot = choose(live, load<U>(rays.slot + i), U(0u));
+        const auto in_run = first_lanes<V>(run.count - n);
+        const U left = choose(in_run, load<U>(rays.left + i), U(0u));
+        const U slot = choose(in_run, load<U>(rays.slot + i), U(0u));
         const U id = left & U(no_sphere);
         const auto inward = !words_equal(left, id);
         const auto p = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
-        const auto sphere = gather_sphere<V>(context.spheres, id);
-        const Vec3<F> outward = (p - sphere.centre) * (F(1) / sphere.radius);
+        const auto& spheres = context.spheres;
+        const auto centre = lookup3<V>(spheres.cx, spheres.cy, spheres.cz, id, spheres.count);
+        const Vec3<F> outward = (p - centre) * lookup<F>(spheres.inverse_radius, id, spheres.count);
         const Vec3<F> normal = choose(inward, outward * F(-1), outward);
         const auto light = sampler(rays, LitVertex<V>{i, p, normal, id, inward, slot});
-        const std::uint32_t chosen = bits(light.arrives && live);
+        const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
+        // A throughput that is no number goes on, to be counted where it would arrive.
+        const auto dead = throughput.x + throughput.y + throughput.z == F(0);
+        const std::uint32_t chosen = bits(light.arrives && in_run && !dead);
         if (chosen == 0) continue;
         size = append_shadow<V>(queue, size, p, light.direction, light.inverse_distance,
                                 throughput * (colour * light.factor), left, slot, chosen);

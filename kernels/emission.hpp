@@ -1,9 +1,9 @@
 // Stage `shade`, first step: the radiance a ray runs into, an emitter's or the enclosing volume's.
 #pragma once
 
-#include "kernels/compress.hpp"
 #include "kernels/light.hpp"
 #include "kernels/queues.hpp"
+#include "kernels/rows.hpp"
 
 namespace orrery::kernels {
 
@@ -16,21 +16,14 @@ ORRERY_INLINE typename V::F scattering_weight(const typename V::F& pdf, const ty
     return choose(whole, F(1), F(1) / (F(1) + light_pdf / pdf));
 }
 
-/// Adds each chosen lane to its slot. Lane by lane, in lane order.
+/// Adds the chosen lanes to their slots.
 template <class V>
 ORRERY_INLINE void add_radiance(const SlotTable<typename V::Real>& slots, const typename V::U& slot,
-                                const Vec3<typename V::F>& radiance, std::uint32_t chosen) {
-    alignas(64) typename V::Word at[V::count];
-    alignas(64) typename V::Real r[V::count], g[V::count], b[V::count];
-    save(at, slot);
-    save3<V>(r, g, b, radiance);
-    for (; chosen != 0; chosen &= chosen - 1) {
-        const int lane = std::countr_zero(chosen);
-        typename V::Real* const sum = slots.radiance + std::size_t{4} * at[lane];
-        sum[0] += r[lane];
-        sum[1] += g[lane];
-        sum[2] += b[lane];
-    }
+                                const Vec3<typename V::F>& radiance, const typename V::M& chosen) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const Vec3<F> none{F(0), F(0), F(0)};
+    add_to_rows<V>(slots.radiance, choose(chosen, slot, U(0u)), choose(chosen, radiance, none));
 }
 
 template <class V>
@@ -47,7 +40,7 @@ void emission(const SphereTable<typename V::Real>& spheres, const EmissionTable<
         const U id = choose(live && !missed, hit & U(no_sphere), U(0u));
         if (lights.has_background && any(missed)) {
             const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
-            add_radiance<V>(slots, load<U>(rays.slot + i), throughput * background, bits(missed));
+            add_radiance<V>(slots, load<U>(rays.slot + i), throughput * background, missed);
         }
         if (!lights.has_emitters) continue;
         const U surface = lookup<U>(spheres.surface, id, spheres.count);
@@ -65,7 +58,7 @@ void emission(const SphereTable<typename V::Real>& spheres, const EmissionTable<
         const U light = lookup<U>(spheres.light, id, spheres.count);
         const auto radiance = lookup3<V>(lights.r, lights.g, lights.b, light, lights.count);
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i) * weight;
-        add_radiance<V>(slots, load<U>(rays.slot + i), throughput * radiance, bits(emits));
+        add_radiance<V>(slots, load<U>(rays.slot + i), throughput * radiance, emits);
     }
 }
 

@@ -7,37 +7,39 @@
 #include "kernels/sort.hpp"
 #include "kernels/stages.hpp"
 #include "kernels/tree_stages.hpp"
+#include "kernels/twin_lanes.hpp"
 #include "kernels/whitted.hpp"
 
 namespace orrery::kernels {
 
-template <class V>
+/// V: one vector. W: what the stages with long chains of dependent operations work on.
+template <class V, class W = TwinLanes<V>>
 constexpr Stages<typename V::Real> make_stages(Isa isa) {
     using enum Scattering;
     using enum LightStrategy;
     Stages<typename V::Real> s{};
     s.isa = isa;
     s.lanes = V::count;
-    s.generate_pinhole = generate<V, false>;
-    s.generate_lens = generate<V, true>;
-    s.intersect = intersect<V>;
+    s.generate_pinhole = generate<W, false>;
+    s.generate_lens = generate<W, true>;
+    s.intersect = intersect<W>;
     s.intersect_tree = intersect_tree<V>;
-    s.emission = emission<V>;
+    s.emission = emission<W>;
     s.sort_by_scattering = sort_by_scattering<V>;
-    s.scatter[0] = scatter<V, diffuse>;
-    s.scatter[1] = scatter<V, specular>;
-    s.scatter[2] = scatter<V, glossy>;
-    s.scatter[3] = scatter<V, dielectric>;
-    s.scatter[4] = scatter<V, translucent>;
-    s.connect_point[0] = connect_point<V, Response::diffuse>;
-    s.connect_point[1] = connect_point<V, Response::glossy>;
-    s.connect_area[0][0] = connect_area<V, Response::diffuse, area>;
-    s.connect_area[0][1] = connect_area<V, Response::glossy, area>;
-    s.connect_area[1][0] = connect_area<V, Response::diffuse, cone>;
-    s.connect_area[1][1] = connect_area<V, Response::glossy, cone>;
-    s.shadow = shadow<V>;
+    s.scatter[0] = scatter<W, diffuse>;
+    s.scatter[1] = scatter<W, specular>;
+    s.scatter[2] = scatter<W, glossy>;
+    s.scatter[3] = scatter<W, dielectric>;
+    s.scatter[4] = scatter<W, translucent>;
+    s.connect_point[0] = connect_point<W, Response::diffuse>;
+    s.connect_point[1] = connect_point<W, Response::glossy>;
+    s.connect_area[0][0] = connect_area<W, Response::diffuse, area>;
+    s.connect_area[0][1] = connect_area<W, Response::glossy, area>;
+    s.connect_area[1][0] = connect_area<W, Response::diffuse, cone>;
+    s.connect_area[1][1] = connect_area<W, Response::glossy, cone>;
+    s.shadow = shadow<W>;
     s.shadow_tree = shadow_tree<V>;
-    s.roulette = roulette<V>;
+    s.roulette = roulette<W>;
     s.expire = expire<V>;
     s.branch = branch<V>;
     s.descend = descend<V>;

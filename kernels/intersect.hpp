@@ -15,13 +15,14 @@ struct Closest {
     typename V::U id;  ///< with inside_bit
 };
 
+/// Fractions are compared by cross-multiplication: no division per sphere.
 template <class V>
-ORRERY_INLINE void keep_closer(Closest<V>& best, const Root<V>& root, std::uint32_t k) {
-    using U = typename V::U;
-    const auto closer = root.exists && (root.num * best.den < best.num * root.den);
-    best.num = choose(closer, root.num, best.num);
-    best.den = choose(closer, root.den, best.den);
-    best.id = choose(closer, choose(root.inside, U(k | inside_bit), U(k)), best.id);
+ORRERY_INLINE void keep_closer(Closest<V>& best, const typename V::F& num, const typename V::F& den,
+                               const typename V::M& exists, const typename V::U& id) {
+    const auto closer = exists && (num * best.den < best.num * den);
+    best.num = choose(closer, num, best.num);
+    best.den = choose(closer, den, best.den);
+    best.id = choose(closer, id, best.id);
 }
 
 /// Closest hit with t_min < t < t_max, t_max >= 0. `left` is the sphere each ray leaves (inside_bit: inward), no_sphere
@@ -44,25 +45,24 @@ ORRERY_INLINE Closest<V> closest_hit(const SphereTable<typename V::Real>& sphere
         best.num = choose(closer, t, best.num);
         best.id = choose(closer, left, best.id);
     }
-    // 1 / t of the closest hit so far: most spheres are farther or missed by all lanes, and cost no square root.
-    F inverse = best.den / best.num;
     const auto test = [&](std::uint32_t k) ORRERY_INLINE_LAMBDA {
         const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
+        const F s = root(line.disc);
         const auto not_left = !words_equal(left_id, U(k));
-        typename V::M candidate;
-        if constexpr (std::is_same_v<Start, FromOrigin>) {
-            candidate = not_left && (near_root_before<V>(line, inverse) || (line.c <= zero && line.disc > zero));
+        // Not for the sphere just left, whose c is zero give or take a rounding: a branch nobody could predict.
+        const auto within = not_left && line.c <= zero;
+        // From outside the near root c / (b + s) or none. Every sphere pays its square root: a branch around it was
+        // taken for nearly every vector of bounced rays and cost more.
+        if (std::is_same_v<Start, FromOrigin> && !any(within)) {
+            keep_closer<V>(best, line.c, line.b + s, not_left && min(line.b, line.disc) > zero, U(k));
         } else {
-            candidate = not_left && line.disc > zero;
-        }
-        if (any(candidate)) {
-            keep_closer<V>(best, first_root<V>(line, root(line.disc), t_min, candidate), k);
-            inverse = best.den / best.num;
+            const auto first = first_root<V>(line, s, t_min, not_left && line.disc > zero);
+            keep_closer<V>(best, first.num, first.den, first.exists, choose(first.inside, U(k | inside_bit), U(k)));
         }
         return false;
     };
     // A hair less, so that the rounding of the division hides no equal hit.
-    const auto limit = [&]() ORRERY_INLINE_LAMBDA { return inverse * F(0.99999f); };
+    const auto limit = [&]() ORRERY_INLINE_LAMBDA { return best.den / best.num * F(0.99999f); };
     for_spheres_near<V>(spheres, o, d, limit, test);
     return best;
 }

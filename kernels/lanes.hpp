@@ -38,7 +38,8 @@ ORRERY_INLINE typename V::M no_lane() {
 
 namespace detail {
 template <class Real>
-inline constexpr Real iota_table[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+inline constexpr Real iota_table[32] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15,
+                                        16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31};
 }
 
 /// Lanes below n: the live part of a queue's last vector.
@@ -81,6 +82,22 @@ ORRERY_INLINE xsimd::batch<Real, Arch> mul_add(const xsimd::batch<Real, Arch>& a
     } else
 #endif
         return xsimd::fma(a, b, c);
+}
+
+template <class T>
+ORRERY_INLINE std::enable_if_t<std::is_floating_point_v<T>, T> mul_sub(T a, T b, T c) {
+    return std::fma(a, b, -c);
+}
+/// a b - c, rounded once (twice on SSE2).
+template <class Real, class Arch>
+ORRERY_INLINE xsimd::batch<Real, Arch> mul_sub(const xsimd::batch<Real, Arch>& a, const xsimd::batch<Real, Arch>& b,
+                                               const xsimd::batch<Real, Arch>& c) {
+#if defined(__AVX512F__)
+    if constexpr (std::is_base_of_v<xsimd::avx512f, Arch> && std::is_same_v<Real, float>) {
+        return _mm512_fmsub_ps(a, b, c);
+    } else
+#endif
+        return xsimd::fms(a, b, c);
 }
 
 template <class T>
@@ -169,6 +186,16 @@ ORRERY_INLINE xsimd::batch<std::uint32_t, Arch> choose(const xsimd::batch_bool<f
     using F = xsimd::batch<float, Arch>;
     using U = xsimd::batch<std::uint32_t, Arch>;
     return xsimd::bitwise_cast<U>(xsimd::select(m, xsimd::bitwise_cast<F>(a), xsimd::bitwise_cast<F>(b)));
+}
+
+/// x with its sign flipped where bit 31 of `sign` is set.
+ORRERY_INLINE float flip_sign(float x, std::uint32_t sign) { return (sign & 0x80000000u) != 0 ? -x : x; }
+template <class Arch>
+ORRERY_INLINE xsimd::batch<float, Arch> flip_sign(const xsimd::batch<float, Arch>& x,
+                                                  const xsimd::batch<std::uint32_t, Arch>& sign) {
+    using F = xsimd::batch<float, Arch>;
+    using U = xsimd::batch<std::uint32_t, Arch>;
+    return xsimd::bitwise_cast<F>(xsimd::bitwise_cast<U>(x) ^ (sign & U(0x80000000u)));
 }
 
 /// The top 24 bits of a random word as a number in [0, 1): all 32 would round to 1.0 for 128 of them.

@@ -53,7 +53,7 @@ ORRERY_INLINE LightSample<V> sample_light_cone(const Vec3<typename V::F>& p, con
                                                const typename V::F& u, const typename V::F& v) {
     using F = typename V::F;
     const Vec3<F> f = p - light.centre;
-    const F c = power_of_point(f, light.radius);
+    const F c = power_of_point(f, light.radius2);
     const auto cone = light_cone(f, c, light.radius);
     const Vec3<F> axis = f * (F(0) - cone.inverse_distance);
     const F x = u * cone.one_minus_cosine;  // 1 - cos of the sampled angle

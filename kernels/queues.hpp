@@ -15,8 +15,8 @@
 
 namespace orrery::kernels {
 
-/// The widest vector any kernel uses, in numbers; every capacity is a multiple.
-inline constexpr std::uint32_t widest = 16;
+/// The most lanes any kernel works on at once (two AVX-512 vectors); every capacity is a multiple.
+inline constexpr std::uint32_t widest = 32;
 
 ORRERY_INLINE constexpr std::uint32_t round_up(std::uint32_t n) { return (n + widest - 1) / widest * widest; }
 

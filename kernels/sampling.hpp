@@ -12,16 +12,6 @@ struct SinCos {
     F sin, cos;
 };
 
-/// x with its sign flipped where bit 31 of `sign` is set.
-ORRERY_INLINE float flip_sign(float x, std::uint32_t sign) { return (sign & 0x80000000u) != 0 ? -x : x; }
-template <class Arch>
-ORRERY_INLINE xsimd::batch<float, Arch> flip_sign(const xsimd::batch<float, Arch>& x,
-                                                  const xsimd::batch<std::uint32_t, Arch>& sign) {
-    using F = xsimd::batch<float, Arch>;
-    using U = xsimd::batch<std::uint32_t, Arch>;
-    return xsimd::bitwise_cast<F>(xsimd::bitwise_cast<U>(x) ^ (sign & U(0x80000000u)));
-}
-
 /// Sine and cosine of u turns, u in [0, 1), to 2 ulp of 1. Our own series, so that every instruction set rounds alike:
 /// the quarter turn nearest is taken off exactly, what is left is at most pi/4 and a short Taylor series does.
 template <class V>

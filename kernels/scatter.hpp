@@ -23,21 +23,40 @@ struct ScatterContext {
     bool competing_pdf = false;
 };
 
-/// What a scattering event makes of a ray.
+/// What a scattering event makes of a ray, its throughput apart.
 template <class V>
 struct Scattered {
     Vec3<typename V::F> direction;  ///< unit length
-    Vec3<typename V::F> weight;     ///< throughput factor, radiance scaling by eta included
     typename V::F pdf;              ///< see RayQueue::pdf
-    typename V::F eta_scale;        ///< (eta_i / eta_t)^2 of this event, 1 unless it crosses an interface
     typename V::U side;             ///< inside_bit where the ray leaves inward
     Vec3<typename V::F> lobe;       ///< unperturbed direction, glossy and translucent only
+    typename V::M transmits;        ///< it crosses the surface, dielectric and translucent only
+    typename V::F eta_scale;        ///< (eta_i / eta_t)^2 of this event, 1 unless it crosses; as above
 };
 
 template <class V>
 ORRERY_INLINE Vec3<typename V::F> reflectance_of(const MaterialTable<typename V::Real>& materials,
                                                  const typename V::U& material) {
     return lookup3<V>(materials.rho_r, materials.rho_g, materials.rho_b, material, materials.count);
+}
+
+constexpr bool is_interface(Scattering kind) {
+    return kind == Scattering::dielectric || kind == Scattering::translucent;
+}
+constexpr bool is_rough(Scattering kind) { return kind == Scattering::glossy || kind == Scattering::translucent; }
+
+/// Throughput factor, radiance scaling by eta included.
+template <class V, Scattering kind>
+ORRERY_INLINE Vec3<typename V::F> weight_of(const MaterialTable<typename V::Real>& materials,
+                                            const typename V::U& material, const Scattered<V>& out) {
+    const auto rho = reflectance_of<V>(materials, material);
+    if constexpr (is_interface(kind)) {
+        // One lobe at random, chosen with probability F: what F multiplies cancels.
+        const auto tau = lookup3<V>(materials.tau_r, materials.tau_g, materials.tau_b, material, materials.count);
+        return choose(out.transmits, tau * out.eta_scale, rho);
+    } else {
+        return rho;
+    }
 }
 
 template <class V, Scattering kind>
@@ -49,51 +68,52 @@ ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<typename V::Real>& co
     using Real = typename V::Real;
     const F infinity(std::numeric_limits<Real>::infinity());
     const F one(1);
-    const auto& materials = context.materials;
-    const Vec3<F> rho = reflectance_of<V>(materials, vertex.material);
+    Scattered<V> out;
+    out.side = vertex.side;
     if constexpr (kind == Scattering::specular) {
-        const Vec3<F> mirror = reflected(direction, vertex.normal, vertex.cosine);
-        return {unit(mirror), rho, infinity, one, vertex.side, mirror};
+        out.direction = unit(reflected(direction, vertex.normal, vertex.cosine));
+        out.pdf = infinity;
+        return out;
     }
     const auto random =
         random_for<V>(context.slots, rays, i, {context.seed, Dimension::scattering, 0}, context.bounce, slot);
     if constexpr (kind == Scattering::diffuse) {
         const auto sample = sample_cosine<V>(vertex.normal, random.x, random.y);
-        const F pdf = context.competing_pdf ? sample.cosine * F(static_cast<Real>(std::numbers::inv_pi)) : F(0);
-        return {sample.direction, rho, pdf, one, vertex.side, sample.direction};
+        out.direction = sample.direction;
+        out.pdf = context.competing_pdf ? sample.cosine * F(static_cast<Real>(std::numbers::inv_pi)) : F(0);
     } else {
-        Vec3<F> lobe = reflected(direction, vertex.normal, vertex.cosine);
+        const auto& materials = context.materials;
+        out.lobe = reflected(direction, vertex.normal, vertex.cosine);
         F lobe_cosine = vertex.cosine;
-        auto weight = rho;
-        auto scale = one;
-        U side = vertex.side;
         Vec3<F> normal = vertex.normal;  // on the side the lobe leaves
-        if constexpr (kind == Scattering::dielectric || kind == Scattering::translucent) {
+        if constexpr (is_interface(kind)) {
             const F eta = lookup<F>(materials.eta, vertex.material, materials.count);
             const auto from_outside = words_equal(vertex.side, U(0u));
             const auto at = interface_at<V>(vertex.cosine, choose(from_outside, eta, one / eta));
-            // One lobe at random, chosen with probability F: what F multiplies cancels.
             const auto reflects = random.z < at.reflectance;
-            const Vec3<F> tau =
-                lookup3<V>(materials.tau_r, materials.tau_g, materials.tau_b, vertex.material, materials.count);
-            scale = choose(reflects, one, at.inverse_eta * at.inverse_eta);
-            weight = choose(reflects, rho, tau * scale);
-            lobe = choose(reflects, lobe, refracted<V>(direction, vertex.normal, vertex.cosine, at));
+            out.transmits = !reflects;
+            out.eta_scale = choose(reflects, one, at.inverse_eta * at.inverse_eta);
+            out.lobe = choose(reflects, out.lobe, refracted<V>(direction, vertex.normal, vertex.cosine, at));
             lobe_cosine = choose(reflects, vertex.cosine, at.cosine_t);
             normal = choose(reflects, normal, normal * F(-1));
-            side = choose(reflects, side, side ^ U(inside_bit));
+            out.side = choose(reflects, out.side, out.side ^ U(inside_bit));
         }
-        lobe = unit(lobe);
-        if constexpr (kind == Scattering::dielectric) {
-            return {lobe, weight, infinity, scale, side, lobe};
-        } else {
+        out.lobe = unit(out.lobe);
+        if constexpr (is_rough(kind)) {
             const F beta = lookup<F>(materials.roughness, vertex.material, materials.count);
-            const auto sample = sample_glossy<V>(lobe, normal, lobe_cosine, beta, random.x, random.y);
-            return {sample.direction, weight, context.competing_pdf ? sample.pdf : infinity, scale, side, lobe};
+            const auto sample = sample_glossy<V>(out.lobe, normal, lobe_cosine, beta, random.x, random.y);
+            out.direction = sample.direction;
+            out.pdf = context.competing_pdf ? sample.pdf : infinity;
+        } else {
+            out.direction = out.lobe;
+            out.pdf = infinity;
         }
     }
+    return out;
 }
 
+/// Everything is loaded where it is needed and saved as soon as it is known: what stays alive across the sampling
+/// spills.
 template <class V, Scattering kind>
 void scatter(const ScatterContext<typename V::Real>& context, Range run, const RayQueue<typename V::Real>& rays,
              const HitQueue<typename V::Real>& hits, const LobeQueue<typename V::Real>& lobes) {
@@ -102,20 +122,21 @@ void scatter(const ScatterContext<typename V::Real>& context, Range run, const R
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
         const auto in = arriving<V>(context.spheres, rays, hits, i, run.count - n);
-        const auto out = scatter_at<V, kind>(context, in.vertex, in.direction, rays, i, in.slot);
-
         save3<V>(rays.ox + i, rays.oy + i, rays.oz + i, in.vertex.position);
+        const auto out = scatter_at<V, kind>(context, in.vertex, in.direction, rays, i, in.slot);
         save3<V>(rays.dx + i, rays.dy + i, rays.dz + i, out.direction);
-        // Misses leave with no throughput.
-        save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(in.live, in.throughput * out.weight, none));
         save(rays.left + i, in.vertex.sphere | out.side);
         if (rays.pdf != nullptr) save(rays.pdf + i, out.pdf);
-        if constexpr (kind == Scattering::dielectric || kind == Scattering::translucent) {
+        if constexpr (is_interface(kind)) {
             if (rays.eta_scale != nullptr) save(rays.eta_scale + i, load<F>(rays.eta_scale + i) * out.eta_scale);
         }
-        if constexpr (kind == Scattering::glossy || kind == Scattering::translucent) {
+        if constexpr (is_rough(kind)) {
             if (lobes.x != nullptr) save3<V>(lobes.x + i, lobes.y + i, lobes.z + i, out.lobe);
         }
+        // Misses leave with no throughput.
+        const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i) *
+                                weight_of<V, kind>(context.materials, in.vertex.material, out);
+        save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(in.live, throughput, none));
     }
 }
 

@@ -19,8 +19,8 @@ void shadow(const SphereTable<typename V::Real>& spheres, const ShadowQueue<type
         const U left = choose(live, load<U>(queue.left + i), U(no_sphere));
         const auto blocked =
             any_hit<V>(spheres, o, d, left, FromOrigin{}, load<F>(queue.inverse_t_max + i), skip, live);
-        const std::uint32_t lit = bits(live && !blocked);
-        if (lit == 0) continue;
+        const auto lit = live && !blocked;
+        if (!any(lit)) continue;
         add_radiance<V>(slots, load<U>(queue.slot + i), load3<V>(queue.r + i, queue.g + i, queue.b + i), lit);
     }
 }

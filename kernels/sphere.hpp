@@ -1,6 +1,6 @@
 // Ray against sphere, once: the maths body of every intersection and occlusion test.
 //
-// With f = O - C, b = -f.D, c = f.f - r^2 and the perpendicular l = f + b D, the discriminant r^2 - l.l keeps its
+// With f = C - O, b = f.D, c = f.f - r^2 and the perpendicular l = f - b D, the discriminant r^2 - l.l keeps its
 // digits where b^2 - c cancels (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems,
 // 2019: b^2 - c misses 2 % of the hits at distance 1000 r). With s = sqrt(disc) and q = |b| + s, which never cancels,
 // the roots are q and c/q (b > 0) or their negatives. A root is kept as a fraction num/den and compared by
@@ -19,26 +19,26 @@ namespace orrery::kernels {
 template <class F>
 struct Sphere {
     Vec3<F> centre;
-    F radius;
+    F radius, radius2;
 };
 
 template <class V>
 ORRERY_INLINE Sphere<typename V::F> broadcast_sphere(const SphereTable<typename V::Real>& spheres, std::uint32_t k) {
     using F = typename V::F;
-    return {{F(spheres.cx[k]), F(spheres.cy[k]), F(spheres.cz[k])}, F(spheres.radius[k])};
+    return {{F(spheres.cx[k]), F(spheres.cy[k]), F(spheres.cz[k])}, F(spheres.radius[k]), F(spheres.radius2[k])};
 }
 
 template <class V>
 ORRERY_INLINE Sphere<typename V::F> gather_sphere(const SphereTable<typename V::Real>& spheres,
                                                   const typename V::U& id) {
-    return {lookup3<V>(spheres.cx, spheres.cy, spheres.cz, id, spheres.count),
-            lookup<typename V::F>(spheres.radius, id, spheres.count)};
+    const auto radius = lookup<typename V::F>(spheres.radius, id, spheres.count);
+    return {lookup3<V>(spheres.cx, spheres.cy, spheres.cz, id, spheres.count), radius, radius * radius};
 }
 
 /// f.f - r^2: > 0 outside the sphere, < 0 inside (the power of the point).
 template <class F>
-ORRERY_INLINE F power_of_point(const Vec3<F>& f, const F& radius) {
-    return mul_add(f.x, f.x, mul_add(f.y, f.y, neg_mul_add(radius, radius, f.z * f.z)));
+ORRERY_INLINE F power_of_point(const Vec3<F>& f, const F& radius2) {
+    return mul_add(f.x, f.x, mul_add(f.y, f.y, mul_sub(f.z, f.z, radius2)));
 }
 
 /// The line of a ray against one sphere.
@@ -46,16 +46,16 @@ template <class F>
 struct Chord {
     F b;     ///< distance along the ray to the point closest to the centre
     F c;     ///< power of the origin
-    F disc;  ///< half chord squared; the line meets the sphere where > 0
+    F disc;  ///< half chord squared; the line meets the sphere where > 0: a tangent misses
 };
 
 template <class F>
 ORRERY_INLINE Chord<F> chord(const Vec3<F>& origin, const Vec3<F>& direction, const Sphere<F>& sphere) {
-    const Vec3<F> f = origin - sphere.centre;
-    const F b = F(0) - dot(f, direction);
-    const Vec3<F> l = along(f, b, direction);
-    const F disc = neg_mul_add(l.x, l.x, neg_mul_add(l.y, l.y, neg_mul_add(l.z, l.z, sphere.radius * sphere.radius)));
-    return {b, power_of_point(f, sphere.radius), disc};
+    const Vec3<F> f = sphere.centre - origin;
+    const F b = dot(f, direction);
+    const Vec3<F> l = back_along(f, b, direction);
+    const F disc = neg_mul_add(l.x, l.x, neg_mul_add(l.y, l.y, neg_mul_add(l.z, l.z, sphere.radius2)));
+    return {b, power_of_point(f, sphere.radius2), disc};
 }
 
 /// t = num / den, den > 0.
@@ -77,8 +77,9 @@ ORRERY_INLINE F times(const F& t_min, const F& den) {
     return t_min * den;
 }
 
-/// The first root > t_min of a chord whose half length is s = sqrt(disc), among the lanes of `candidate`.
-/// Start is FromOrigin or a vector of t_min >= 0.
+/// The first root > t_min of a chord whose half length is s = sqrt(disc), among the lanes of `candidate`. Where the
+/// line misses the sphere s is no number, and num or den with it: no comparison of t holds. Start is FromOrigin or a
+/// vector of t_min >= 0.
 template <class V, class Start>
 ORRERY_INLINE Root<V> first_root(const Chord<typename V::F>& chord, const typename V::F& s, const Start& t_min,
                                  const typename V::M& candidate) {
@@ -101,7 +102,7 @@ ORRERY_INLINE Root<V> first_root(const Chord<typename V::F>& chord, const typena
 template <class V>
 ORRERY_INLINE typename V::M near_root_before(const Chord<typename V::F>& chord, const typename V::F& inverse_t) {
     using F = typename V::F;
-    const F g = mul_add(chord.c, inverse_t, F(0) - chord.b);
+    const F g = mul_sub(chord.c, inverse_t, chord.b);
     return min(chord.disc, min(chord.b, chord.c)) > F(0) && g * magnitude(g) < chord.disc;
 }
 
@@ -117,10 +118,10 @@ ORRERY_INLINE typename V::M group_may_hit(const SphereGroups<typename V::Real>& 
                                           const Vec3<typename V::F>& origin, const Vec3<typename V::F>& direction,
                                           const typename V::F& inverse_t_max) {
     using F = typename V::F;
-    const Vec3<F> f = origin - Vec3<F>{F(groups.cx[g]), F(groups.cy[g]), F(groups.cz[g])};
-    const F b = F(0) - dot(f, direction);
+    const Vec3<F> f = Vec3<F>{F(groups.cx[g]), F(groups.cy[g]), F(groups.cz[g])} - origin;
+    const F b = dot(f, direction);
     const F distance2 = dot(f, f);
-    const Vec3<F> l = along(f, b, direction);
+    const Vec3<F> l = back_along(f, b, direction);
     const F radius2 = mul_add(distance2, F(group_distance_margin), F(groups.radius2[g]));
     const F disc = radius2 - dot(l, l);
     const F c = distance2 - radius2;
@@ -153,7 +154,7 @@ ORRERY_INLINE void for_spheres_near(const SphereTable<typename V::Real>& spheres
 /// Where a ray that leaves sphere `left` inward meets it again: 2b, clamped at 0 for rounding at grazing incidence.
 template <class F>
 ORRERY_INLINE F inner_far_root(const Vec3<F>& origin, const Vec3<F>& direction, const Sphere<F>& sphere) {
-    const F b = F(0) - dot(origin - sphere.centre, direction);
+    const F b = dot(sphere.centre - origin, direction);
     return max(b + b, F(0));
 }
 

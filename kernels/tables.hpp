@@ -47,6 +47,8 @@ struct SphereTable {
     const Real* cy = nullptr;
     const Real* cz = nullptr;
     const Real* radius = nullptr;   ///< > 0
+    const Real* radius2 = nullptr;  ///< radius * radius in Real, so a sphere whose radius is half an ulp off
+    const Real* inverse_radius = nullptr;
     const Word* surface = nullptr;  ///< see surface_material_bits
     const Word* light = nullptr;    ///< index into the area lights where surface_emits is set, else 0
     SphereGroups<Real> groups{};

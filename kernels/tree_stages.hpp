@@ -42,9 +42,9 @@ void shadow_tree(const SphereTable<typename V::Real>& spheres, const ShadowQueue
                             queue.inverse_t_max + first, bunch, skip, occluded);
         for (std::uint32_t i = 0; i < bunch; i += V::count) {
             const auto live = first_lanes<V>(bunch - i);
-            const std::uint32_t lit = bits(live && words_equal(load<U>(occluded + i), U(0u)));
+            const auto lit = live && words_equal(load<U>(occluded + i), U(0u));
             const std::uint32_t at = first + i;
-            if (lit != 0)
+            if (any(lit))
                 add_radiance<V>(slots, load<U>(queue.slot + at), load3<V>(queue.r + at, queue.g + at, queue.b + at),
                                 lit);
         }

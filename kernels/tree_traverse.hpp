@@ -76,11 +76,12 @@ ORRERY_INLINE void meet_spheres(const SphereTable<typename V::Real>& spheres, st
     for (std::uint32_t k = first; k < first + tree_width; k += V::count) {
         const auto centre = load3<V>(spheres.cx + k, spheres.cy + k, spheres.cz + k);
         const F radius = load<F>(spheres.radius + k);
+        const F radius2 = load<F>(spheres.radius2 + k);
         for (std::uint32_t i = 0; i < size; ++i) {
             const auto r = list[i];
             const Vec3<F> o{F(rays.origin[0][r]), F(rays.origin[1][r]), F(rays.origin[2][r])};
             const Vec3<F> d{F(rays.direction[0][r]), F(rays.direction[1][r]), F(rays.direction[2][r])};
-            const auto line = chord(o, d, Sphere<F>{centre, radius});
+            const auto line = chord(o, d, Sphere<F>{centre, radius, radius2});
             std::uint32_t hit = bits(line.disc > F(0));
             if (hit == 0) continue;
             alignas(64) Real b[V::count], c[V::count], disc[V::count];

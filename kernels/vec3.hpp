@@ -32,6 +32,11 @@ template <class F>
 ORRERY_INLINE Vec3<F> along(const Vec3<F>& a, const F& s, const Vec3<F>& d) {
     return {mul_add(s, d.x, a.x), mul_add(s, d.y, a.y), mul_add(s, d.z, a.z)};
 }
+/// a - s d, one rounding per component.
+template <class F>
+ORRERY_INLINE Vec3<F> back_along(const Vec3<F>& a, const F& s, const Vec3<F>& d) {
+    return {neg_mul_add(s, d.x, a.x), neg_mul_add(s, d.y, a.y), neg_mul_add(s, d.z, a.z)};
+}
 template <class F>
 ORRERY_INLINE F dot(const Vec3<F>& a, const Vec3<F>& b) {
     return mul_add(a.x, b.x, mul_add(a.y, b.y, a.z * b.z));

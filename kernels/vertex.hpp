@@ -47,7 +47,6 @@ struct Arriving {
     typename V::M live;  ///< in the run, and met something: an unsorted run holds its misses too
     typename V::U slot;  ///< 0 outside the run
     Vec3<typename V::F> direction;
-    Vec3<typename V::F> throughput;
     Vertex<V> vertex;
 };
 
@@ -62,7 +61,6 @@ ORRERY_INLINE Arriving<V> arriving(const SphereTable<typename V::Real>& spheres,
     const auto live = in_run && !words_equal(met, U(no_sphere));
     const auto direction = load3<V>(rays.dx + i, rays.dy + i, rays.dz + i);
     return {live, choose(in_run, load<U>(rays.slot + i), U(0u)), direction,
-            load3<V>(rays.tr + i, rays.tg + i, rays.tb + i),
             vertex_at<V>(spheres, load3<V>(rays.ox + i, rays.oy + i, rays.oz + i), direction, load<F>(hits.t + i),
                          choose(live, met, U(0u)))};
 }

@@ -49,8 +49,9 @@ void branch(const ScatterContext<typename V::Real>& context, Range run, const Ra
         const auto tau =
             lookup3<V>(materials.tau_r, materials.tau_g, materials.tau_b, vertex.material, materials.count) *
             ((F(1) - at.reflectance) * at.inverse_eta * at.inverse_eta);
+        const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
         const auto weigh = [&](const Vec3<F>& w) {
-            const Vec3<F> out = in.throughput * w;
+            const Vec3<F> out = throughput * w;
             const auto keep = in.live && max(out.x, max(out.y, out.z)) >= F(branch_cut<Real>);
             return choose(keep, out, Vec3<F>{F(0), F(0), F(0)});
         };

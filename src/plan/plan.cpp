@@ -126,7 +126,10 @@ void Plan::plan_surfaces(const std::vector<std::uint32_t>& order) {
     for (const std::uint32_t primitive : order) {
         const Primitive& p = scene_.primitives[primitive];
         push3(sphere_columns_, 0, p.centre);
-        sphere_columns_[3].push_back(static_cast<float>(p.radius));
+        const auto radius = static_cast<float>(p.radius);
+        sphere_columns_[3].push_back(radius);
+        sphere_columns_[4].push_back(radius * radius);
+        sphere_columns_[5].push_back(1 / radius);
         const Scattering kind = scattering_of(scene_.materials[p.material], settings().integrator);
         needs_.scattering |= bit(kind);
         std::uint32_t surface = p.material | static_cast<std::uint32_t>(kind) << kernels::surface_material_bits;
@@ -151,6 +154,8 @@ void Plan::plan_surfaces(const std::vector<std::uint32_t>& order) {
                 sphere_columns_[1].data(),
                 sphere_columns_[2].data(),
                 sphere_columns_[3].data(),
+                sphere_columns_[4].data(),
+                sphere_columns_[5].data(),
                 sphere_words_[0].data(),
                 sphere_words_[1].data(),
                 {},

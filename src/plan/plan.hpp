@@ -90,7 +90,7 @@ private:
     std::vector<kernels::PointLight<float>> point_lights_;
     std::vector<kernels::AreaLight<float>> area_lights_;
     Tree tree_;
-    std::array<std::vector<float>, 4> sphere_columns_;        // cx cy cz radius
+    std::array<std::vector<float>, 6> sphere_columns_;        // cx cy cz radius, its square and inverse
     std::array<std::vector<std::uint32_t>, 2> sphere_words_;  // surface light
     std::array<std::vector<float>, 8> material_columns_;      // rho, tau, eta, roughness
     std::array<std::vector<float>, 3> emission_columns_;

@@ -100,7 +100,7 @@ TEST(SegmentScalar, InDoubleItIsAsGoodAsDouble) {
         const glm::dvec3 d = glm::normalize(c + 0.9 * random.direction() - o);
         const double r = 1;
         const std::uint64_t surface = 0;
-        const kernels::SphereTable<double> table{1, &c.x, &c.y, &c.z, &r, &surface, &surface};
+        const kernels::SphereTable<double> table{1, &c.x, &c.y, &c.z, &r, &r, &r, &surface, &surface};
         const auto hit = kernels::intersects(table, kernels::Segment<double>{o.x, o.y, o.z, d.x, d.y, d.z});
         const Roots wanted = roots(o, d, c, r);
         ASSERT_TRUE(wanted.real);

@@ -36,7 +36,10 @@ public:
                    const std::vector<glm::dvec3>& lights = {}) {
         for (const Ball& ball : balls) {
             push3(columns_, 0, ball.centre);
-            columns_[3].push_back(static_cast<float>(ball.radius));
+            const auto radius = static_cast<float>(ball.radius);
+            columns_[3].push_back(radius);
+            columns_[15].push_back(radius * radius);
+            columns_[16].push_back(1 / radius);
             const auto kind = static_cast<std::uint32_t>(surfaces[ball.material].kind);
             words_[0].push_back(ball.material | kind << kernels::surface_material_bits |
                                 (ball.light >= 0 ? kernels::surface_emits : 0));
@@ -55,7 +58,8 @@ public:
         const auto count = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
         spheres.count = count(balls);
         spheres.cx = columns_[0].data(), spheres.cy = columns_[1].data(), spheres.cz = columns_[2].data();
-        spheres.radius = columns_[3].data();
+        spheres.radius = columns_[3].data(), spheres.radius2 = columns_[15].data();
+        spheres.inverse_radius = columns_[16].data();
         spheres.surface = words_[0].data(), spheres.light = words_[1].data();
         materials.count = count(surfaces);
         materials.rho_r = columns_[4].data(), materials.rho_g = columns_[5].data(),
@@ -108,7 +112,7 @@ private:
         for (int c = 0; c < 3; ++c) columns[first + static_cast<std::size_t>(c)].push_back(static_cast<float>(v[c]));
     }
 
-    std::array<std::vector<float>, 15> columns_;  // centre radius, rho tau eta beta, emission
+    std::array<std::vector<float>, 17> columns_;  // centre radius, rho tau eta beta, emission, radius2 1/radius
     std::array<std::vector<std::uint32_t>, 2> words_;
     std::array<std::vector<float>, 4> groups_;  // centre, squared radius
     std::vector<std::uint32_t> ends_;

@@ -1,0 +1,79 @@
+// Three columns of lanes added to rows in memory: radiance to the slots it belongs to.
+#pragma once
+
+#include "kernels/twin_lanes.hpp"
+#include "kernels/vec3.hpp"
+
+namespace orrery::kernels {
+
+namespace detail {
+
+/// (x, y, z, 0) of every lane: that of lane 4 i + j goes to out[j * V::count + 4 i].
+template <class V>
+ORRERY_INLINE void save_rows(float* out, const Vec3<typename V::F>& v) {
+#if defined(__AVX512F__)
+    if constexpr (V::count == 16) {
+        const __m512 zero = _mm512_setzero_ps();
+        const __m512d xy_low = _mm512_castps_pd(_mm512_unpacklo_ps(v.x, v.y));
+        const __m512d xy_high = _mm512_castps_pd(_mm512_unpackhi_ps(v.x, v.y));
+        const __m512d z_low = _mm512_castps_pd(_mm512_unpacklo_ps(v.z, zero));
+        const __m512d z_high = _mm512_castps_pd(_mm512_unpackhi_ps(v.z, zero));
+        _mm512_store_ps(out, _mm512_castpd_ps(_mm512_unpacklo_pd(xy_low, z_low)));
+        _mm512_store_ps(out + 16, _mm512_castpd_ps(_mm512_unpackhi_pd(xy_low, z_low)));
+        _mm512_store_ps(out + 32, _mm512_castpd_ps(_mm512_unpacklo_pd(xy_high, z_high)));
+        _mm512_store_ps(out + 48, _mm512_castpd_ps(_mm512_unpackhi_pd(xy_high, z_high)));
+        return;
+    }
+#endif
+#if defined(__AVX2__)
+    if constexpr (V::count == 8) {
+        const __m256 zero = _mm256_setzero_ps();
+        const __m256d xy_low = _mm256_castps_pd(_mm256_unpacklo_ps(v.x, v.y));
+        const __m256d xy_high = _mm256_castps_pd(_mm256_unpackhi_ps(v.x, v.y));
+        const __m256d z_low = _mm256_castps_pd(_mm256_unpacklo_ps(v.z, zero));
+        const __m256d z_high = _mm256_castps_pd(_mm256_unpackhi_ps(v.z, zero));
+        _mm256_store_ps(out, _mm256_castpd_ps(_mm256_unpacklo_pd(xy_low, z_low)));
+        _mm256_store_ps(out + 8, _mm256_castpd_ps(_mm256_unpackhi_pd(xy_low, z_low)));
+        _mm256_store_ps(out + 16, _mm256_castpd_ps(_mm256_unpacklo_pd(xy_high, z_high)));
+        _mm256_store_ps(out + 24, _mm256_castpd_ps(_mm256_unpackhi_pd(xy_high, z_high)));
+        return;
+    }
+#endif
+    if constexpr (V::count == 4) {
+        __m128 row[4] = {v.x, v.y, v.z, _mm_setzero_ps()};
+        _MM_TRANSPOSE4_PS(row[0], row[1], row[2], row[3]);
+        for (int j = 0; j < 4; ++j) _mm_store_ps(out + 4 * j, row[j]);
+    }
+}
+
+}  // namespace detail
+
+/// rows[4 row .. 4 row + 2] += value, for every lane in lane order. A lane that has nothing to add brings zeros and any
+/// valid row. (Gathering, adding and scattering a column at a time takes the processor longer than these single rows,
+/// and needs the rows of a vector to differ.)
+template <class V>
+ORRERY_INLINE void add_to_rows(float* rows, const typename V::U& row, const Vec3<typename V::F>& value) {
+    if constexpr (V::count == 1) {
+        rows[4 * row] += value.x;
+        rows[4 * row + 1] += value.y;
+        rows[4 * row + 2] += value.z;
+    } else if constexpr (requires { typename V::Half; }) {
+        using Half = typename V::Half;
+        using Rgb = Vec3<typename Half::F>;
+        add_to_rows<Half>(rows, row.low, Rgb{value.x.low, value.y.low, value.z.low});
+        add_to_rows<Half>(rows, row.high, Rgb{value.x.high, value.y.high, value.z.high});
+    } else {
+        alignas(64) std::uint32_t at[V::count];
+        alignas(64) float terms[4 * V::count];
+        row.store_aligned(at);
+        detail::save_rows<V>(terms, value);
+        using Row = xsimd::batch<float, xsimd::sse2>;
+        for (std::uint32_t lane = 0; lane < V::count; ++lane) {
+            float* const sum = rows + std::size_t{4} * at[lane];
+            const float* const term = terms + lane % 4 * V::count + lane / 4 * 4;
+            (Row::load_aligned(sum) + Row::load_aligned(term)).store_aligned(sum);
+        }
+    }
+}
+
+}  // namespace orrery::kernels
