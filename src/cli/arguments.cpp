@@ -118,6 +118,7 @@ void add_reports(CLI::App& app, Arguments& arguments) {
     add_option(app, "--stats", "FILE.json", "Write times, ray counts and the plan as JSON; - is standard output",
                [&](const std::string& text) { arguments.stats = text; })
         ->group("Reports");
+    app.add_flag("--profile", arguments.profile, "Print where the time went, by stage and bounce")->group("Reports");
 }
 
 void add_quiet(CLI::App& app, Arguments& arguments) {

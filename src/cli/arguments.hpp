@@ -34,6 +34,7 @@ struct Arguments {
     unsigned threads = 0;                        ///< 0: all cores
     Isa isa = best_isa();                        ///< supported by this machine
     std::uint32_t wave_size = 0;                 ///< 0: the default
+    bool profile = false;                        ///< print where the time went
     bool quiet = false;                          ///< neither progress nor warnings
 };
 

@@ -7,6 +7,7 @@
 #include "cli/exit_code.hpp"
 #include "cli/metadata.hpp"
 #include "cli/outputs.hpp"
+#include "cli/profile_table.hpp"
 #include "cli/progress.hpp"
 #include "cli/signals.hpp"
 #include "cli/standard_streams.hpp"
@@ -85,6 +86,7 @@ int render_command(const Arguments& arguments) {
         if (stats.dropped_samples > 0)
             print_warning(fmt::format("{} samples were not finite and were dropped", stats.dropped_samples));
     }
+    if (arguments.profile) print_message(profile_table(stats));
     // Where the statistics take standard output they name the images, and it stays one JSON document.
     if (!outputs.stats_to_standard_output)
         for (const fs::path& file : written) print_result(file.string() + "\n");

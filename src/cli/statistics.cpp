@@ -13,8 +13,27 @@ using Json = nlohmann::ordered_json;
 Json stage_seconds(const RenderStats& stats) {
     Json seconds = Json::object();
     for (std::size_t stage = 0; stage < stage_names.size(); ++stage)
-        seconds[stage_names[stage]] = stats.stage_seconds[stage];
+        seconds[stage_names[stage]] = stats.profile.total(static_cast<Stage>(stage)).seconds;
     return seconds;
+}
+
+Json profile(const RenderStats& stats) {
+    Json rows = Json::array();
+    for (std::size_t bounce = 0; bounce < profile_bounces; ++bounce) {
+        for (std::size_t stage = 0; stage < stage_names.size(); ++stage) {
+            const StageCost& cost = stats.profile.bounces[bounce][stage];
+            if (cost.seconds == 0) continue;
+            rows.push_back({{"stage", stage_names[stage]},
+                            {"bounce", bounce},
+                            {"seconds", cost.seconds},
+                            {"rays", cost.rays},
+                            {"lanes", cost.lanes},
+                            {"lanes_filled", cost.filled},
+                            {"bytes", cost.bytes}});
+        }
+    }
+    rows.push_back({{"stage", "others"}, {"seconds", stats.profile.others}});
+    return rows;
 }
 
 Json decisions(const Plan& plan) {
@@ -53,6 +72,7 @@ std::string statistics_json(const Plan& plan, const RenderStats& stats,
         {"rays", {{"closest", stats.closest_rays}, {"shadow", stats.shadow_rays}}},
         {"rays_per_second", rays_per_second(stats)},
         {"stage_seconds", stage_seconds(stats)},
+        {"profile", profile(stats)},
         {"dropped_samples", stats.dropped_samples},
         {"plan", decisions(plan)},
     };

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "kernels/queues.hpp"
-#include "wavefront/wave.hpp"
+#include "wavefront/stage_timer.hpp"
 
 namespace orrery {
 
@@ -13,20 +13,35 @@ using kernels::Response;
 using kernels::Runs;
 using kernels::Scattering;
 
+/// Bytes of a record of the queue, absent fields left out.
+template <class Queue>
+std::uint32_t record_bytes(const Queue& queue) {
+    std::uint32_t sum = 0;
+    Queue::each_field([&](const char*, auto field) { sum += queue.*field != nullptr ? 4u : 0u; });
+    return sum;
+}
+
+/// Lanes per step of the kernels that work on rays.
+std::uint32_t lanes(const Wave& w) { return w.stages.lanes == 1 ? 1 : 2 * w.stages.lanes; }
+
+constexpr std::uint32_t word = 4, vector3 = 3 * word, row = 4 * word;
+
 // ---- the five stages, as the pages call them ----------------------------------------------------------------------
 
 /// Camera -> ray queue. Returns the number of rays, one per slot.
 std::uint32_t generate(Wave& w) {
-    const StageTimer timer(w, Stage::generate);
+    const StageTimer timer(w, Stage::generate, 0, {w.count, 4 * word + record_bytes(w.storage.rays) + row, lanes(w)});
     const auto stage = w.plan.needs().lens ? w.stages.generate_lens : w.stages.generate_pinhole;
     stage(w.plan.camera(), w.storage.slots, w.count, w.plan.settings().seed, w.storage.rays);
     return w.count;
 }
 
 /// Rays -> hits.
-void intersect(Wave& w, std::uint32_t rays) {
-    const StageTimer timer(w, Stage::intersect);
-    const auto stage = w.plan.needs().tree ? w.stages.intersect_tree : w.stages.intersect;
+void intersect(Wave& w, std::uint32_t rays, std::uint32_t bounce) {
+    const bool tree = w.plan.needs().tree;
+    const std::uint32_t bytes = 2 * vector3 + word + record_bytes(w.storage.hits);
+    const StageTimer timer(w, Stage::intersect, bounce, {rays, bytes, tree ? 0 : lanes(w)});
+    const auto stage = tree ? w.stages.intersect_tree : w.stages.intersect;
     stage(w.plan.spheres(), w.storage.rays, rays, w.storage.hits);
     w.counters.closest_rays += rays;
 }
@@ -36,16 +51,17 @@ LightStrategy light_strategy(const Wave& w) {
 }
 
 /// Hits -> the radiance rays run into.
-void gather_emission(Wave& w, std::uint32_t rays) {
+void gather_emission(Wave& w, std::uint32_t rays, std::uint32_t bounce) {
     const Needs& needs = w.plan.needs();
     if (!needs.emitters && !needs.background) return;
-    const StageTimer timer(w, Stage::shade);
+    // The hits' ids; what few rays run into light load more.
+    const StageTimer timer(w, Stage::shade, bounce, {rays, word, lanes(w), true});
     w.stages.emission(w.plan.spheres(), w.plan.emission(), light_strategy(w), w.storage.rays, w.storage.hits, rays,
                       w.storage.slots);
 }
 
 /// Hits -> one run per way of scattering. Where the scene has one way, the queue is the run, misses included.
-Runs sort_hits(Wave& w, std::uint32_t rays) {
+Runs sort_hits(Wave& w, std::uint32_t rays, std::uint32_t bounce) {
     const Needs& needs = w.plan.needs();
     Runs runs;
     if (!needs.sort) {
@@ -53,8 +69,9 @@ Runs sort_hits(Wave& w, std::uint32_t rays) {
             if (needs.scatters(static_cast<Scattering>(k))) runs.run[k] = {0, rays};
         return runs;
     }
-    const StageTimer timer(w, Stage::shade);
     WaveStorage& s = w.storage;
+    const std::uint32_t bytes = vector3 + word + 2 * (record_bytes(s.rays) + record_bytes(s.hits));
+    const StageTimer timer(w, Stage::shade, bounce, {rays, bytes, w.stages.lanes, true});
     w.stages.sort_by_scattering(w.plan.spheres(), needs.scattering, s.rays, s.hits, rays, s.sorted_rays, s.sorted_hits,
                                 runs);
     std::swap(s.rays, s.sorted_rays);
@@ -71,15 +88,19 @@ kernels::ScatterContext<float> scatter_context(const Wave& w, std::uint32_t boun
 void scatter(Wave& w, Scattering kind, const Runs& runs, std::uint32_t bounce) {
     const auto k = static_cast<std::size_t>(kind);
     if (runs.run[k].count == 0) return;
-    const StageTimer timer(w, Stage::shade);
+    // Read and written in place but for the slot, pixel and sample, which are only read.
+    const std::uint32_t bytes = 2 * record_bytes(w.storage.rays) - 3 * word + record_bytes(w.storage.hits);
+    const StageTimer timer(w, Stage::shade, bounce, {runs.run[k].count, bytes, lanes(w)});
     w.stages.scatter[k](scatter_context(w, bounce), runs.run[k], w.storage.rays, w.storage.hits, w.storage.lobes);
 }
 
 /// Shadow queue -> radiance.
-void shadow(Wave& w, std::uint32_t rays, std::uint32_t light_sphere) {
+void shadow(Wave& w, std::uint32_t rays, std::uint32_t light_sphere, std::uint32_t bounce) {
     if (rays == 0) return;
-    const StageTimer timer(w, Stage::shadow);
-    const auto stage = w.plan.needs().tree ? w.stages.shadow_tree : w.stages.shadow;
+    const bool tree = w.plan.needs().tree;
+    const std::uint32_t bytes = record_bytes(w.storage.shadows) + 2 * row;
+    const StageTimer timer(w, Stage::shadow, bounce, {rays, bytes, tree ? 0 : lanes(w)});
+    const auto stage = tree ? w.stages.shadow_tree : w.stages.shadow;
     stage(w.plan.spheres(), w.storage.shadows, rays, light_sphere, w.storage.slots);
     w.counters.shadow_rays += rays;
 }
@@ -90,19 +111,21 @@ void connect(Wave& w, const Runs& runs, std::uint32_t bounce) {
     const WaveStorage& s = w.storage;
     kernels::ConnectContext<float> context{
         plan.spheres(), plan.materials(), s.slots, plan.settings().seed, bounce, 0, plan.needs().competing};
+    const std::uint32_t bytes = 2 * vector3 + 4 * word + record_bytes(s.shadows);
     for (std::uint32_t k = 0; k < kernels::scattering_count; ++k) {
         const auto run = runs.run[k];
         if (run.count == 0) continue;
+        const StageLoad load{run.count, bytes, lanes(w), true};
         const auto response = static_cast<Scattering>(k) == Scattering::diffuse ? Response::diffuse : Response::glossy;
         const auto r = static_cast<std::size_t>(response);
         if ((plan.needs().connect_point >> k & 1u) != 0) {
             for (const auto& light : plan.point_lights()) {
                 std::uint32_t rays = 0;
                 {
-                    const StageTimer timer(w, Stage::shade);
+                    const StageTimer timer(w, Stage::shade, bounce, load);
                     rays = w.stages.connect_point[r](context, light, run, s.rays, s.lobes, s.shadows);
                 }
-                shadow(w, rays, kernels::no_sphere);
+                shadow(w, rays, kernels::no_sphere, bounce);
             }
         }
         if ((plan.needs().connect_area >> k & 1u) != 0) {
@@ -111,10 +134,10 @@ void connect(Wave& w, const Runs& runs, std::uint32_t bounce) {
             for (const auto& light : plan.area_lights()) {
                 std::uint32_t rays = 0;
                 {
-                    const StageTimer timer(w, Stage::shade);
+                    const StageTimer timer(w, Stage::shade, bounce, load);
                     rays = sample(context, light, run, s.rays, s.lobes, s.shadows);
                 }
-                shadow(w, rays, light.sphere);
+                shadow(w, rays, light.sphere, bounce);
                 ++context.light;
             }
         }
@@ -123,7 +146,9 @@ void connect(Wave& w, const Runs& runs, std::uint32_t bounce) {
 
 /// Kill, weigh, compact. Returns the number of survivors.
 std::uint32_t roulette(Wave& w, const Runs& runs, std::uint32_t bounce) {
-    const StageTimer timer(w, Stage::roulette);
+    std::uint32_t rays = 0;
+    for (const auto& run : runs.run) rays += run.count;
+    const StageTimer timer(w, Stage::roulette, bounce, {rays, 2 * record_bytes(w.storage.rays), lanes(w)});
     return w.stages.roulette(w.storage.slots, w.plan.settings().seed, bounce, w.plan.needs().roulette, runs,
                              w.storage.rays);
 }
@@ -145,10 +170,10 @@ void trace_paths(Wave& w) {
 
     std::uint32_t rays = generate(w);
     for (std::uint32_t bounce = 0; rays > 0; ++bounce) {
-        intersect(w, rays);
-        gather_emission(w, rays);
+        intersect(w, rays, bounce);
+        gather_emission(w, rays, bounce);
         if (bounce == depth) break;
-        Runs runs = sort_hits(w, rays);
+        Runs runs = sort_hits(w, rays, bounce);
         for (std::uint32_t k = 0; k < kernels::scattering_count; ++k)
             scatter(w, static_cast<Scattering>(k), runs, bounce);
         connect(w, runs, bounce);
@@ -167,24 +192,24 @@ void trace_whitted(Wave& w) {
 
     std::uint32_t rays = generate(w);
     for (std::uint32_t slot = 0; slot < w.count; ++slot) s.slots.node[slot] = 1;
-    while (rays > 0) {
-        intersect(w, rays);
-        gather_emission(w, rays);
+    for (std::uint32_t pass = 0; rays > 0; ++pass) {
+        intersect(w, rays, pass);
+        gather_emission(w, rays, pass);
         w.stages.expire(s.slots, w.plan.settings().depth, rays, s.rays);
-        Runs runs = sort_hits(w, rays);
-        scatter(w, Scattering::diffuse, runs, 0);
-        connect(w, runs, 0);
+        Runs runs = sort_hits(w, rays, pass);
+        scatter(w, Scattering::diffuse, runs, pass);
+        connect(w, runs, pass);
         end_diffuse(runs);
-        scatter(w, Scattering::specular, runs, 0);
+        scatter(w, Scattering::specular, runs, pass);
         w.stages.descend(s.slots, runs.run[k(Scattering::specular)], s.rays);
         const auto dielectric = runs.run[k(Scattering::dielectric)];
         if (dielectric.count > 0) {
-            const StageTimer timer(w, Stage::shade);
+            const StageTimer timer(w, Stage::shade, pass, {dielectric.count, 2 * record_bytes(s.rays), w.stages.lanes});
             w.stages.branch(scatter_context(w, 0), dielectric, s.rays, s.hits, s.branches);
         }
-        rays = roulette(w, runs, 0);
+        rays = roulette(w, runs, pass);
         if (w.plan.needs().branches) {
-            const StageTimer timer(w, Stage::roulette);
+            const StageTimer timer(w, Stage::roulette, pass, {0, 0, 0});
             rays = w.stages.resume(s.slots, s.branches, rays, s.rays, s.live);
         }
     }
@@ -193,7 +218,7 @@ void trace_whitted(Wave& w) {
 /// Distance along the ray, the enclosing volume's where nothing is hit.
 void trace_distances(Wave& w) {
     WaveStorage& s = w.storage;
-    intersect(w, generate(w));
+    intersect(w, generate(w), 0);
     for (std::uint32_t slot = 0; slot < w.count; ++slot) {
         const bool missed = s.hits.id[slot] == kernels::no_sphere;
         const float distance = missed ? w.plan.enclosing_distance() : s.hits.t[slot];

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "wavefront/stage_timer.hpp"
 #include "wavefront/tile.hpp"
 #include "wavefront/wave.hpp"
 
@@ -69,6 +70,7 @@ RenderResult render(const Plan& plan, const RenderOptions& options) {
     std::atomic<bool> stopped = false;
 
     const auto start = std::chrono::steady_clock::now();
+    const std::uint64_t first_tick = TickClock::now();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     tbb::task_arena arena(static_cast<int>(threads));
     arena.execute([&] {
@@ -88,6 +90,7 @@ RenderResult render(const Plan& plan, const RenderOptions& options) {
 
     RenderStats stats;
     stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds_per_tick = stats.seconds / static_cast<double>(TickClock::now() - first_tick);
     stats.isa = stages.isa;
     stats.threads = threads;
     stats.wave_size = wave_size;
@@ -95,12 +98,14 @@ RenderResult render(const Plan& plan, const RenderOptions& options) {
     stats.queue_bytes = WaveStorage::bytes(plan.needs(), settings.depth, wave_size);
     stats.bytes_per_ray = stats.queue_bytes / wave_size;
     for (const Wave& wave : waves) {
-        for (std::size_t s = 0; s < stats.stage_seconds.size(); ++s)
-            stats.stage_seconds[s] += wave.counters.stage_seconds[s];
+        stats.profile.add(profile_of(wave.counters, seconds_per_tick));
         stats.closest_rays += wave.counters.closest_rays;
         stats.shadow_rays += wave.counters.shadow_rays;
         stats.dropped_samples += wave.counters.dropped_samples;
     }
+    stats.profile.others = stats.seconds * threads;
+    for (std::size_t s = 0; s < stage_names.size(); ++s)
+        stats.profile.others -= stats.profile.total(static_cast<Stage>(s)).seconds;
     RenderResult result{film.mean(), stats};
     if (settings.integrator == Integrator::depth) invert_distances(result.image);
     return result;

@@ -1,7 +1,6 @@
 // A scene to an image: the library's front door.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -9,12 +8,9 @@
 #include "film/film.hpp"
 #include "kernels/isa.hpp"
 #include "plan/plan.hpp"
+#include "wavefront/profile.hpp"
 
 namespace orrery {
-
-/// The five stages, in the order a wave runs through them.
-enum class Stage : std::uint8_t { generate, intersect, shade, shadow, roulette };
-inline constexpr std::array<const char*, 5> stage_names = {"generate", "intersect", "shade", "shadow", "roulette"};
 
 struct RenderOptions {
     unsigned threads = 0;         ///< 0: all cores this process may use
@@ -36,10 +32,10 @@ struct RenderStats {
     double seconds = 0;                   ///< wall time of the rendering proper
     std::uint64_t closest_rays = 0;       ///< counted where they are cast
     std::uint64_t shadow_rays = 0;
-    std::array<double, 5> stage_seconds{};  ///< by Stage, summed over threads
-    std::uint64_t bytes_per_ray = 0;        ///< all queue storage per (pixel, sample) pair of a wave
-    std::uint64_t queue_bytes = 0;          ///< all queue storage per thread
-    std::uint64_t dropped_samples = 0;      ///< not finite, kept out of the film
+    Profile profile;
+    std::uint64_t bytes_per_ray = 0;    ///< all queue storage per (pixel, sample) pair of a wave
+    std::uint64_t queue_bytes = 0;      ///< all queue storage per thread
+    std::uint64_t dropped_samples = 0;  ///< not finite, kept out of the film
 };
 
 struct RenderResult {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 
 #include "film/film.hpp"
 #include "kernels/stages.hpp"
@@ -11,9 +10,14 @@
 
 namespace orrery {
 
+/// A StageCost before ticks are known as seconds.
+struct StageTicks {
+    std::uint64_t ticks = 0, rays = 0, lanes = 0, filled = 0, bytes = 0;
+};
+
 /// What one thread adds to RenderStats.
 struct WaveCounters {
-    std::array<double, 5> stage_seconds{};
+    std::array<std::array<StageTicks, stage_names.size()>, profile_bounces> bounces{};
     std::uint64_t closest_rays = 0;
     std::uint64_t shadow_rays = 0;
     std::uint64_t dropped_samples = 0;
@@ -35,20 +39,8 @@ struct Wave {
     std::uint32_t count = 0;  ///< slots in use
 };
 
-/// Charges the time from construction to destruction to a stage.
-class StageTimer {
-public:
-    StageTimer(Wave& wave, Stage stage)
-        : to_(wave.counters.stage_seconds[static_cast<std::size_t>(stage)]), start_(Clock::now()) {}
-    ~StageTimer() { to_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-    StageTimer(const StageTimer&) = delete;
-    StageTimer& operator=(const StageTimer&) = delete;
-
-private:
-    using Clock = std::chrono::steady_clock;
-    double& to_;
-    Clock::time_point start_;
-};
+/// What a thread's counters say, at so many seconds a tick; `others` is left to the caller.
+Profile profile_of(const WaveCounters& counters, double seconds_per_tick);
 
 /// The pages: each takes a wave whose slots are filled to its end and leaves the radiance in the slots
 /// (trace_distances: the distance in all three channels).

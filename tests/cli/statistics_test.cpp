@@ -65,6 +65,29 @@ TEST(Statistics, TimeTheFiveStages) {
     EXPECT_LE(sum, s["seconds"].get<double>()) << "one thread";
 }
 
+TEST(Statistics, ProfileEndsWithTheOthersAndSumsToTheWallTime) {
+    const TemporaryFolder folder;
+    const Outcome outcome = orrery({"render", scene_file("tests/diffuse_area.json"), "-o", "x.ppm", "--threads", "1",
+                                    "--quiet", "--profile", "--stats", "s.json"},
+                                   {.folder = folder.path()});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+    EXPECT_EQ(outcome.output, "x.ppm\n") << "the table is no result a script reads";
+    EXPECT_TRUE(outcome.error.starts_with("stage ")) << outcome.error;
+    const std::size_t last = outcome.error.rfind('\n', outcome.error.size() - 2);
+    EXPECT_EQ(outcome.error.substr(last + 1, 7), "others ");
+
+    const Json s = Json::parse(load(folder / "s.json"));
+    double seconds = 0;
+    std::uint64_t closest = 0;
+    for (const Json& row : s["profile"]) {
+        seconds += row["seconds"].get<double>();
+        if (row["stage"] == "intersect") closest += row["rays"].get<std::uint64_t>();
+    }
+    EXPECT_EQ(s["profile"].back()["stage"], "others");
+    EXPECT_NEAR(seconds, s["seconds"].get<double>(), 1e-6 * seconds);
+    EXPECT_EQ(closest, s["rays"]["closest"].get<std::uint64_t>());
+}
+
 TEST(Statistics, NameThePlan) {
     const TemporaryFolder folder;
     const Outcome outcome =

@@ -116,11 +116,33 @@ TEST(Statistics, SayWhatRan) {
             EXPECT_GT(stats.seconds, 0);
             EXPECT_EQ(stats.closest_rays == 0, false);
             EXPECT_EQ(stats.shadow_rays == 0, integrator == Integrator::depth);
-            for (const double seconds : stats.stage_seconds) EXPECT_GE(seconds, 0);
-            EXPECT_GT(stats.stage_seconds[static_cast<std::size_t>(Stage::intersect)], 0);
-            EXPECT_EQ(stats.stage_seconds[static_cast<std::size_t>(Stage::shadow)] > 0,
-                      integrator != Integrator::depth);
+            for (std::size_t s = 0; s < stage_names.size(); ++s)
+                EXPECT_GE(stats.profile.total(static_cast<Stage>(s)).seconds, 0);
+            EXPECT_GT(stats.profile.total(Stage::intersect).seconds, 0);
+            EXPECT_EQ(stats.profile.total(Stage::shadow).seconds > 0, integrator != Integrator::depth);
         }
+    }
+}
+
+// The profile accounts for every ray that was cast and for all of the threads' time.
+TEST(Statistics, ProfileAddsUp) {
+    for (const Integrator integrator : all_integrators) {
+        const RenderStats stats = render(everything(integrator), {.threads = 2}).stats;
+        const Profile& profile = stats.profile;
+        EXPECT_EQ(profile.total(Stage::intersect).rays, stats.closest_rays);
+        EXPECT_EQ(profile.total(Stage::shadow).rays, stats.shadow_rays);
+        double seconds = profile.others;
+        for (std::size_t s = 0; s < stage_names.size(); ++s) {
+            const StageCost all = profile.total(static_cast<Stage>(s));
+            seconds += all.seconds;
+            EXPECT_LE(all.filled, all.lanes);
+            EXPECT_EQ(all.bytes > 0, all.rays > 0);
+        }
+        EXPECT_NEAR(seconds, 2 * stats.seconds, 1e-6 * stats.seconds);
+        EXPECT_GE(profile.others, 0) << "the stages took no more time than there was";
+        // What one bounce casts the next one intersects, less what died.
+        for (std::size_t b = 1; b + 1 < profile_bounces && integrator == Integrator::path_tracing; ++b)
+            EXPECT_LE(profile.at(b, Stage::intersect).rays, profile.at(b - 1, Stage::roulette).rays);
     }
 }
 
