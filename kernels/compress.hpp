@@ -56,7 +56,14 @@ ORRERY_INLINE void compress_store(typename T::value_type* to, const T& value, st
     if constexpr (V::count == 4) {
         alignas(16) typename T::value_type lane[4];
         value.store_aligned(lane);
-        for (std::uint32_t left = chosen; left != 0; left &= left - 1) *to++ = lane[std::countr_zero(left)];
+        // Four stores, each on top of the last one unless that was chosen: a loop over the chosen lanes took twice as
+        // long, its end being anybody's guess.
+        const std::uint32_t first = chosen & 1u, second = first + (chosen >> 1 & 1u),
+                            third = second + (chosen >> 2 & 1u);
+        to[0] = lane[0];
+        to[first] = lane[1];
+        to[second] = lane[2];
+        to[third] = lane[3];
     }
 }
 

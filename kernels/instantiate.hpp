@@ -12,17 +12,20 @@
 
 namespace orrery::kernels {
 
-/// V: one vector. W: what the stages with long chains of dependent operations work on.
-template <class V, class W = TwinLanes<V>>
+/// V: one vector. W: what the stages with long chains of dependent operations work on. S: what loops over spheres do;
+/// two vectors of rays and their closest hits fit AVX-512's 32 registers, not AVX2's 16.
+template <class V, class W = TwinLanes<V>, class S = W>
 constexpr Stages<typename V::Real> make_stages(Isa isa) {
     using enum Scattering;
     using enum LightStrategy;
     Stages<typename V::Real> s{};
     s.isa = isa;
     s.lanes = V::count;
+    s.step = W::count;
+    s.sphere_step = S::count;
     s.generate_pinhole = generate<W, false>;
     s.generate_lens = generate<W, true>;
-    s.intersect = intersect<W>;
+    s.intersect = intersect<S>;
     s.intersect_tree = intersect_tree<V>;
     s.emission = emission<W>;
     s.sort_by_scattering = sort_by_scattering<V>;
@@ -37,7 +40,7 @@ constexpr Stages<typename V::Real> make_stages(Isa isa) {
     s.connect_area[0][1] = connect_area<W, Response::glossy, area>;
     s.connect_area[1][0] = connect_area<W, Response::diffuse, cone>;
     s.connect_area[1][1] = connect_area<W, Response::glossy, cone>;
-    s.shadow = shadow<W>;
+    s.shadow = shadow<S>;
     s.shadow_tree = shadow_tree<V>;
     s.roulette = roulette<W>;
     s.expire = expire<V>;

@@ -14,6 +14,8 @@ template <class Real>
 struct Stages {
     Isa isa = Isa::scalar;
     std::uint32_t lanes = 1;  ///< numbers per vector
+    std::uint32_t step = 1;   ///< rays a stage takes at a time, one vector or two; sort_by_scattering takes `lanes`
+    std::uint32_t sphere_step = 1;  ///< the same for intersect and shadow
 
     using Generate = void (*)(const CameraTable<Real>&, const SlotTable<Real>&, std::uint32_t count, std::uint32_t seed,
                               const RayQueue<Real>&);

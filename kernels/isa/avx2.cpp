@@ -2,5 +2,6 @@
 
 namespace orrery::kernels {
 extern const Stages<float> avx2_stages;
-constinit const Stages<float> avx2_stages = make_stages<SimdLanes<xsimd::fma3<xsimd::avx2>, float>>(Isa::avx2);
+using Avx2 = SimdLanes<xsimd::fma3<xsimd::avx2>, float>;
+constinit const Stages<float> avx2_stages = make_stages<Avx2, TwinLanes<Avx2>, Avx2>(Isa::avx2);
 }  // namespace orrery::kernels

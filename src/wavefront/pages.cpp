@@ -21,16 +21,14 @@ std::uint32_t record_bytes(const Queue& queue) {
     return sum;
 }
 
-/// Lanes per step of the kernels that work on rays.
-std::uint32_t lanes(const Wave& w) { return w.stages.lanes == 1 ? 1 : 2 * w.stages.lanes; }
-
 constexpr std::uint32_t word = 4, vector3 = 3 * word, row = 4 * word;
 
 // ---- the five stages, as the pages call them ----------------------------------------------------------------------
 
 /// Camera -> ray queue. Returns the number of rays, one per slot.
 std::uint32_t generate(Wave& w) {
-    const StageTimer timer(w, Stage::generate, 0, {w.count, 4 * word + record_bytes(w.storage.rays) + row, lanes(w)});
+    const StageTimer timer(w, Stage::generate, 0,
+                           {w.count, 4 * word + record_bytes(w.storage.rays) + row, w.stages.step});
     const auto stage = w.plan.needs().lens ? w.stages.generate_lens : w.stages.generate_pinhole;
     stage(w.plan.camera(), w.storage.slots, w.count, w.plan.settings().seed, w.storage.rays);
     return w.count;
@@ -40,7 +38,7 @@ std::uint32_t generate(Wave& w) {
 void intersect(Wave& w, std::uint32_t rays, std::uint32_t bounce) {
     const bool tree = w.plan.needs().tree;
     const std::uint32_t bytes = 2 * vector3 + word + record_bytes(w.storage.hits);
-    const StageTimer timer(w, Stage::intersect, bounce, {rays, bytes, tree ? 0 : lanes(w)});
+    const StageTimer timer(w, Stage::intersect, bounce, {rays, bytes, tree ? 0 : w.stages.sphere_step});
     const auto stage = tree ? w.stages.intersect_tree : w.stages.intersect;
     stage(w.plan.spheres(), w.storage.rays, rays, w.storage.hits);
     w.counters.closest_rays += rays;
@@ -55,7 +53,7 @@ void gather_emission(Wave& w, std::uint32_t rays, std::uint32_t bounce) {
     const Needs& needs = w.plan.needs();
     if (!needs.emitters && !needs.background) return;
     // The hits' ids; what few rays run into light load more.
-    const StageTimer timer(w, Stage::shade, bounce, {rays, word, lanes(w), true});
+    const StageTimer timer(w, Stage::shade, bounce, {rays, word, w.stages.step, true});
     w.stages.emission(w.plan.spheres(), w.plan.emission(), light_strategy(w), w.storage.rays, w.storage.hits, rays,
                       w.storage.slots);
 }
@@ -90,7 +88,7 @@ void scatter(Wave& w, Scattering kind, const Runs& runs, std::uint32_t bounce) {
     if (runs.run[k].count == 0) return;
     // Read and written in place but for the slot, pixel and sample, which are only read.
     const std::uint32_t bytes = 2 * record_bytes(w.storage.rays) - 3 * word + record_bytes(w.storage.hits);
-    const StageTimer timer(w, Stage::shade, bounce, {runs.run[k].count, bytes, lanes(w)});
+    const StageTimer timer(w, Stage::shade, bounce, {runs.run[k].count, bytes, w.stages.step});
     w.stages.scatter[k](scatter_context(w, bounce), runs.run[k], w.storage.rays, w.storage.hits, w.storage.lobes);
 }
 
@@ -99,7 +97,7 @@ void shadow(Wave& w, std::uint32_t rays, std::uint32_t light_sphere, std::uint32
     if (rays == 0) return;
     const bool tree = w.plan.needs().tree;
     const std::uint32_t bytes = record_bytes(w.storage.shadows) + 2 * row;
-    const StageTimer timer(w, Stage::shadow, bounce, {rays, bytes, tree ? 0 : lanes(w)});
+    const StageTimer timer(w, Stage::shadow, bounce, {rays, bytes, tree ? 0 : w.stages.sphere_step});
     const auto stage = tree ? w.stages.shadow_tree : w.stages.shadow;
     stage(w.plan.spheres(), w.storage.shadows, rays, light_sphere, w.storage.slots);
     w.counters.shadow_rays += rays;
@@ -115,7 +113,7 @@ void connect(Wave& w, const Runs& runs, std::uint32_t bounce) {
     for (std::uint32_t k = 0; k < kernels::scattering_count; ++k) {
         const auto run = runs.run[k];
         if (run.count == 0) continue;
-        const StageLoad load{run.count, bytes, lanes(w), true};
+        const StageLoad load{run.count, bytes, w.stages.step, true};
         const auto response = static_cast<Scattering>(k) == Scattering::diffuse ? Response::diffuse : Response::glossy;
         const auto r = static_cast<std::size_t>(response);
         if ((plan.needs().connect_point >> k & 1u) != 0) {
@@ -148,7 +146,7 @@ void connect(Wave& w, const Runs& runs, std::uint32_t bounce) {
 std::uint32_t roulette(Wave& w, const Runs& runs, std::uint32_t bounce) {
     std::uint32_t rays = 0;
     for (const auto& run : runs.run) rays += run.count;
-    const StageTimer timer(w, Stage::roulette, bounce, {rays, 2 * record_bytes(w.storage.rays), lanes(w)});
+    const StageTimer timer(w, Stage::roulette, bounce, {rays, 2 * record_bytes(w.storage.rays), w.stages.step});
     return w.stages.roulette(w.storage.slots, w.plan.settings().seed, bounce, w.plan.needs().roulette, runs,
                              w.storage.rays);
 }

@@ -46,21 +46,24 @@ TEST_P(DispatchTest, EveryStageIsThereAndIsNoOtherInstructionSets) {
     }
 }
 
-// A table can say anything. What runs shows in memory: a kernel stores whole vectors, so for one ray it overwrites as
-// many entries as it has lanes, which are two vectors' (one number's in scalar code).
-TEST_P(DispatchTest, OneRayOverwritesTwoVectors) {
+// A table can say anything. What runs shows in memory: a kernel stores whole vectors, so for one segment this one
+// overwrites as many entries as it has lanes.
+TEST_P(DispatchTest, OneSegmentOverwritesOneVector) {
     const World world({{glm::dvec3(0, 0, 5), 1}});
     Rays rays(kernels::widest);
     for (std::uint32_t i = 0; i < kernels::widest; ++i) {
-        rays->ox[i] = rays->oy[i] = rays->oz[i] = rays->dx[i] = rays->dy[i] = 0;
+        rays->ox[i] = rays->oy[i] = rays->oz[i] = rays->dx[i] = rays->dy[i] = rays->tr[i] = 0;
         rays->dz[i] = 1;
-        rays->left[i] = kernels::no_sphere;
+        rays->tg[i] = 9;
     }
     Hits hits(kernels::widest);
-    stages.intersect(world.spheres, *rays, 1, *hits);
+    const kernels::SegmentColumns<float> segments{rays->ox, rays->oy, rays->oz, rays->dx,
+                                                  rays->dy, rays->dz, rays->tr, rays->tg};
+    stages.is_occluded(world.spheres, segments, 1, hits->id);
+    EXPECT_EQ(hits->id[0], 1u);
     std::uint32_t written = 0;
     while (written < kernels::widest && hits->id[written] != canary) ++written;
-    EXPECT_EQ(written, GetParam() == Isa::scalar ? 1 : 2 * lanes_of(GetParam()));
+    EXPECT_EQ(written, lanes_of(GetParam()));
     for (std::uint32_t i = written; i < kernels::widest; ++i) EXPECT_EQ(hits->id[i], canary);
 }
 
