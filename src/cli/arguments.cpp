@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "cli/compare_arguments.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/generate_arguments.hpp"
 #include "cli/option.hpp"
@@ -146,7 +147,7 @@ Answer failure(const CLI::App& app, const CLI::ParseError& error) {
     const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
     // CLI11 says that a subcommand is required, not which there are.
     const std::string fault = chosen.empty() && error.get_name() == "RequiredError"
-                                  ? "expected a command, render, info or generate"
+                                  ? "expected a command, render, info, generate or compare"
                                   : error.what();
     return {exit_code::misused, "", fmt::format("orrery: error: {}\nTry: orrery{} --help\n", fault, command)};
 }
@@ -184,6 +185,9 @@ std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv
     add_generation(generate, arguments.generation);
     add_quiet(generate, arguments);
 
+    CLI::App& compare = *app.add_subcommand("compare", "Measure how much two images differ");
+    add_comparison(compare, arguments.comparison);
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -192,7 +196,10 @@ std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv
         app.exit(error, output, unused);  // help or version
         return Answer{exit_code::done, output.str(), ""};
     }
-    arguments.command = info.parsed() ? Command::info : generate.parsed() ? Command::generate : Command::render;
+    const std::pair<const CLI::App*, Command> others[] = {
+        {&info, Command::info}, {&generate, Command::generate}, {&compare, Command::compare}};
+    for (const auto& [command, meant] : others)
+        if (command->parsed()) arguments.command = meant;
     return arguments;
 }
 

@@ -14,7 +14,7 @@
 
 namespace orrery {
 
-enum class Command { render, info, generate };
+enum class Command { render, info, generate, compare };
 
 /// What `orrery generate` is to write, and where.
 struct Generation {
@@ -24,11 +24,21 @@ struct Generation {
     std::optional<std::filesystem::path> output;  ///< empty: standard output
 };
 
+/// What `orrery compare` is to compare, what it may find, and where that goes.
+struct ComparisonRequest {
+    std::filesystem::path a, b;  ///< b is the reference
+    std::optional<std::filesystem::path> error_a, error_b;
+    std::optional<double> max_rmse, max_mrse;
+    std::optional<std::filesystem::path> difference;
+    std::optional<std::string> json;  ///< a file, or "-" for standard output
+};
+
 struct Arguments {
     Command command = Command::render;
     std::filesystem::path scene;
     Overrides overrides;
     Generation generation;
+    ComparisonRequest comparison;
     std::vector<std::filesystem::path> outputs;  ///< empty: where the scene says
     std::optional<std::string> stats;            ///< a file, or "-" for standard output
     unsigned threads = 0;                        ///< 0: all cores

@@ -17,6 +17,9 @@ int info_command(const Arguments& arguments);
 /// `orrery generate`: a kind of world -> a scene file.
 int generate_command(const Arguments& arguments);
 
+/// `orrery compare`: two images -> how much they differ, and whether that is more than allowed.
+int compare_command(const Arguments& arguments);
+
 /// The scene with the command line's overrides, every diagnostic of the file printed. Empty where the scene has
 /// errors. Throws UsageError where the overrides do not fit it.
 std::optional<Scene> load_scene(const Arguments& arguments);

@@ -24,6 +24,8 @@ int run(int argc, const char* const* argv) {
             return info_command(arguments);
         case Command::generate:
             return generate_command(arguments);
+        case Command::compare:
+            return compare_command(arguments);
     }
     return exit_code::misused;
 }

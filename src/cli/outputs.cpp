@@ -20,6 +20,8 @@ fs::path identity(const fs::path& file) {
     return error ? file : canonical;
 }
 
+}  // namespace
+
 void require_known_ending(const fs::path& file, const std::string& option) {
     try {
         static_cast<void>(image_format(file));
@@ -28,7 +30,13 @@ void require_known_ending(const fs::path& file, const std::string& option) {
     }
 }
 
-}  // namespace
+void require_different_files(const std::vector<fs::path>& read, const std::vector<fs::path>& written) {
+    std::set<fs::path> taken;
+    for (const fs::path& file : read) taken.insert(identity(file));
+    for (const fs::path& file : written)
+        if (!taken.insert(identity(file)).second)
+            throw UsageError(fmt::format("{}: this file is named twice, expected different files", file.string()));
+}
 
 Outputs choose_outputs(const Arguments& arguments, const Scene& scene) {
     Outputs outputs;
@@ -47,13 +55,9 @@ Outputs choose_outputs(const Arguments& arguments, const Scene& scene) {
         outputs.stats = *arguments.stats;
     }
 
-    std::set<fs::path> taken = {identity(scene.file)};
-    const auto take = [&](const fs::path& file) {
-        if (!taken.insert(identity(file)).second)
-            throw UsageError(fmt::format("{}: this file is named twice, expected different files", file.string()));
-    };
-    for (const fs::path& image : outputs.images) take(image);
-    if (outputs.stats) take(*outputs.stats);
+    std::vector<fs::path> written = outputs.images;
+    if (outputs.stats) written.push_back(*outputs.stats);
+    require_different_files({scene.file}, written);
     return outputs;
 }
 

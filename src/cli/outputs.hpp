@@ -21,6 +21,13 @@ struct Outputs {
 /// ending is unknown, or a file is named twice (as the scene, say). Touches nothing.
 Outputs choose_outputs(const Arguments& arguments, const Scene& scene);
 
+/// Throws UsageError where two of `written` are one file, under whatever names, or one of them is also `read`.
+void require_different_files(const std::vector<std::filesystem::path>& read,
+                             const std::vector<std::filesystem::path>& written);
+
+/// Throws UsageError, which names the `option`, where no image format has the ending of `file`.
+void require_known_ending(const std::filesystem::path& file, const std::string& option);
+
 /// Makes sure that all can be written, and makes the folder of the scene's own output where only that folder itself is
 /// missing: a scene that says "../output/x.png" does not ask the user to make `output` first. A folder named on the
 /// command line is more likely misspelt. Throws std::runtime_error.

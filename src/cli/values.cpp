@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "cli/exit_code.hpp"
 #include "scene/printable.hpp"
@@ -29,6 +30,15 @@ UsageError unexpected(std::string_view found, std::string_view expected) {
 std::uint32_t parse_integer(std::string_view text, std::uint32_t low, std::uint32_t high) {
     if (const auto value = whole_number(text, low, high)) return *value;
     throw unexpected(text, fmt::format("a whole number from {} to {}", low, high));
+}
+
+double parse_limit(std::string_view text) {
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    // from_chars reads "inf" and "nan", too; no limit is either.
+    if (error == std::errc() && stop == end && std::isfinite(value) && !std::signbit(value)) return value;
+    throw unexpected(text, "a number >= 0");
 }
 
 ImageSize parse_size(std::string_view text) {

@@ -15,6 +15,9 @@ namespace orrery {
 /// Whole numbers are decimal digits alone: no sign, no blanks, no 0x, nothing after them. Throws UsageError.
 std::uint32_t parse_integer(std::string_view text, std::uint32_t low, std::uint32_t high);
 
+/// A finite decimal number >= 0, with or without fraction and exponent, nothing before or after it. Throws UsageError.
+double parse_limit(std::string_view text);
+
 /// "640x480", each 1 to 65536. Throws UsageError.
 ImageSize parse_size(std::string_view text);
 

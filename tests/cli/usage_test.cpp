@@ -18,8 +18,12 @@ using Arguments = std::vector<std::string>;
 const std::string any_scene = scene_file("tests/diffuse_area.json");
 
 TEST(Usage, HelpAndVersionGoToStandardOutput) {
-    for (const Arguments& asked :
-         {Arguments{"--help"}, {"-h"}, {"render", "--help"}, {"info", "--help"}, {"generate", "--help"}}) {
+    for (const Arguments& asked : {Arguments{"--help"},
+                                   {"-h"},
+                                   {"render", "--help"},
+                                   {"info", "--help"},
+                                   {"generate", "--help"},
+                                   {"compare", "--help"}}) {
         const Outcome help = orrery(asked);
         EXPECT_EQ(help.exit_code, 0);
         EXPECT_THAT(help.output, HasSubstr("Usage: orrery"));
@@ -67,8 +71,8 @@ std::string refusal_with(const Arguments& options) {
 }
 
 TEST(Usage, ACommandAndASceneAreNeeded) {
-    EXPECT_THAT(refusal_of({}), HasSubstr("expected a command, render, info or generate"));
-    EXPECT_THAT(refusal_of({"paint", any_scene}), HasSubstr("expected a command, render, info or generate"));
+    EXPECT_THAT(refusal_of({}), HasSubstr("expected a command, render, info, generate or compare"));
+    EXPECT_THAT(refusal_of({"paint", any_scene}), HasSubstr("expected a command, render, info, generate or compare"));
     EXPECT_THAT(refusal_of({"render"}), HasSubstr("SCENE"));
     EXPECT_THAT(refusal_of({"info"}), HasSubstr("SCENE"));
     EXPECT_THAT(refusal_of({"render", any_scene, "another.json"}), HasSubstr("another.json"));
