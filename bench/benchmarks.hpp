@@ -17,5 +17,7 @@ void register_peers(const Options& options, Worlds& worlds);
 void register_builds(const Options& options, Worlds& worlds);
 /// machine/OPERATION/dependent or independent/ISA: what bounds the rest.
 void register_machine(const Options& options);
+/// linear/random-8/QUEUE/avx512: the linear intersect kernel against its bound.
+void register_linear(const Options& options, Worlds& worlds);
 
 }  // namespace orrery::bench

@@ -3,7 +3,6 @@
 #include <xmmintrin.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -30,7 +29,8 @@ Roots roots(const kernels::SphereTable<float>& spheres, std::uint32_t id, const 
     return {b - s, b + s};
 }
 
-/// In radii: how far behind its start a ray may meet the sphere it left by the rounding of Embree's roots.
+/// In radii: how far behind its start a ray may meet the sphere it left by the rounding of Embree's roots. A third of
+/// it lets 16 shadow rays in 10000 of scene 8 run into their own wall, thrice of it hides hits close to the start.
 constexpr double own_margin = 3e-5;
 
 template <class Queue>
@@ -79,7 +79,8 @@ std::vector<PeerRay> peer_rays(const kernels::SphereTable<float>& spheres, const
 FlushDenormals::FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040u); }
 FlushDenormals::~FlushDenormals() { _mm_setcsr(before_); }
 
-EmbreeScene::EmbreeScene(const kernels::SphereTable<float>& spheres, const char* config, RTCBuildQuality quality)
+EmbreeScene::EmbreeScene(const kernels::SphereTable<float>& spheres, const char* config, RTCBuildQuality quality,
+                         TimedBy clock)
     : device_(rtcNewDevice(config)) {
     if (device_ == nullptr) throw std::runtime_error(std::string("Embree refuses the configuration ") + config);
     rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
@@ -95,12 +96,12 @@ EmbreeScene::EmbreeScene(const kernels::SphereTable<float>& spheres, const char*
     rtcSetGeometryBuildQuality(geometry, quality);
     scene_ = rtcNewScene(device_);
     rtcSetSceneBuildQuality(scene_, quality);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch(clock);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene_);
-    build_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    build_seconds_ = watch.seconds();
 }
 
 EmbreeScene::~EmbreeScene() {

@@ -10,13 +10,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "bench/timing.hpp"
 #include "kernels/queues.hpp"
 
 namespace orrery::bench {
 
 #if !ORRERY_EMBREE
 class EmbreeScene {};
+constexpr const char* embree_version() { return "none"; }
 #else
+
+constexpr const char* embree_version() { return RTC_VERSION_STRING; }
 
 /// A ray as Embree takes it. Embree knows no "sphere just left": that root is kept out by tnear.
 struct PeerRay {
@@ -51,8 +55,9 @@ constexpr const char* embree_config(bool occlusion) {
 /// Spheres, committed. primID is the place in the table.
 class EmbreeScene {
 public:
-    /// `config` as in rtcNewDevice.
-    EmbreeScene(const kernels::SphereTable<float>& spheres, const char* config, RTCBuildQuality quality);
+    /// `config` as in rtcNewDevice; `clock` times the building.
+    EmbreeScene(const kernels::SphereTable<float>& spheres, const char* config, RTCBuildQuality quality,
+                TimedBy clock = TimedBy::wall);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;

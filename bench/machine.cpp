@@ -4,6 +4,8 @@
 // multiply-add of 512 or 256 bits on Skylake and its descendants (Fog, "Instruction tables").
 #include <fmt/format.h>
 
+#include "bench/machine.hpp"
+
 #include "bench/benchmarks.hpp"
 #include "bench/timing.hpp"
 
@@ -28,6 +30,8 @@ void dependent_multiply_adds() {
     for (int i = 0; i < rounds; ++i) asm volatile("vfmadd213ps %1, %1, %0" : "+v"(sum) : "v"(factor));
 }
 
+static_assert(10 * rounds == independent_operations);
+
 /// Ten chains: more than latency times ports.
 template <class Vector>
 void independent_multiply_adds() {
@@ -44,7 +48,6 @@ void independent_multiply_adds() {
 
 // Instantiated where the instruction set is known to the compiler.
 __attribute__((target("avx512f"), flatten)) void dependent_512() { dependent_multiply_adds<__m512>(); }
-__attribute__((target("avx512f"), flatten)) void independent_512() { independent_multiply_adds<__m512>(); }
 __attribute__((target("avx2,fma"), flatten)) void dependent_256() { dependent_multiply_adds<__m256>(); }
 __attribute__((target("avx2,fma"), flatten)) void independent_256() { independent_multiply_adds<__m256>(); }
 
@@ -59,16 +62,18 @@ void add(const std::string& name, void (*run)(), double operations) {
 
 }  // namespace
 
+__attribute__((target("avx512f"), flatten)) void independent_512() { independent_multiply_adds<__m512>(); }
+
 void register_machine(const Options& options) {
     add("additions/dependent/x86-64", dependent_additions, 4 * rounds);
     for (const Isa isa : options.isas) {
         if (isa == Isa::avx2) {
             add("multiply-adds/dependent/avx2", dependent_256, rounds);
-            add("multiply-adds/independent/avx2", independent_256, 10 * rounds);
+            add("multiply-adds/independent/avx2", independent_256, independent_operations);
         }
         if (isa == Isa::avx512) {
             add("multiply-adds/dependent/avx512", dependent_512, rounds);
-            add("multiply-adds/independent/avx512", independent_512, 10 * rounds);
+            add("multiply-adds/independent/avx512", independent_512, independent_operations);
         }
     }
 }

@@ -3,11 +3,26 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fstream>
 
 #include "bench/benchmarks.hpp"
+#include "bench/embree_scene.hpp"
 #include "bench/timing.hpp"
 
 using namespace orrery;
+
+namespace {
+
+/// As the system gives it; "unknown processor" where it does not.
+std::string cpu_name() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);)
+        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+    return "unknown processor";
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     bench::Options options;
@@ -17,6 +32,7 @@ int main(int argc, char** argv) {
     app.add_option("--isa", isas, "scalar, sse2, avx2, avx512; all vector ones this machine has if left out")
         ->delimiter(',');
     app.add_option("--scenes", options.scenes, "the folder of scenes")->capture_default_str();
+    app.add_option("--spheres", options.random_counts, "of the random scenes")->delimiter(',')->capture_default_str();
     app.add_flag("--smoke", options.smoke, "everything once, as small as it goes");
     options.scenes = ORRERY_SCENES;
     CLI11_PARSE(app, argc, argv);
@@ -29,6 +45,7 @@ int main(int argc, char** argv) {
         }
         options.isas.push_back(*isa);
     }
+    std::sort(options.isas.begin(), options.isas.end());
     // Scalar code is what the others are checked against; nobody runs it who has a choice.
     if (isas.empty())
         for (const Isa isa : all_isas)
@@ -38,9 +55,12 @@ int main(int argc, char** argv) {
         options.random_counts = {8, 1024};
     }
 
+    benchmark::AddCustomContext("cpu", cpu_name());
+    benchmark::AddCustomContext("embree", bench::embree_version());
     try {
         bench::Worlds worlds(options);
         bench::register_machine(options);
+        bench::register_linear(options, worlds);
         bench::register_stages(options, worlds);
         bench::register_renders(options, worlds);
         bench::register_peers(options, worlds);

@@ -17,7 +17,8 @@ void run_ours(benchmark::State& state, World& world, const PeerQueue& queue, Isa
     const auto calls = world.recording().of(queue.stage, queue.bounce);
     const auto& stages = kernels::stages_for(isa);
     Workspace& space = world.workspace();
-    if (const std::string fault = fault_of(calls, stages, space); !fault.empty()) return fail(state, fault);
+    if (const std::string& fault = world.fault(queue.stage, queue.bounce, isa); !fault.empty())
+        return fail(state, fault);
     std::vector<Piece> pieces;
     double rays = 0;
     for (const StageCall* call : calls) {
@@ -26,7 +27,7 @@ void run_ours(benchmark::State& state, World& world, const PeerQueue& queue, Isa
         rays += call->rays;
     }
     time_passes(state, pieces, rays);
-    describe_peer(state, world, isa_name(isa).data());
+    describe_peer(state, world, isa_name(isa));
 }
 
 }  // namespace
@@ -53,7 +54,7 @@ std::vector<PeerHit> our_answers(const StageCall& call, Workspace& space) {
     return answers;
 }
 
-void describe_peer(benchmark::State& state, World& world, const char* who) {
+void describe_peer(benchmark::State& state, World& world, std::string_view who) {
     const auto spheres = world.plan().spheres().count;
     const auto wave = world.recording().wave_size;
     state.counters["spheres"] = spheres;

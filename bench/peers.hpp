@@ -28,7 +28,7 @@ struct PeerHit {
 /// What our stages answer to a recorded call.
 std::vector<PeerHit> our_answers(const StageCall& call, Workspace& space);
 
-void describe_peer(benchmark::State& state, World& world, const char* who);
+void describe_peer(benchmark::State& state, World& world, std::string_view who);
 
 /// peer/WORLD/QUEUE/embree-...: Embree's ways to answer a queue. Only where it is built in.
 void register_embree(World& world, const PeerQueue& queue);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "bench/embree_scene.hpp"
 #include "bench/peers.hpp"
@@ -12,8 +13,9 @@ namespace orrery::bench {
 namespace {
 
 /// At most this share of a queue's rays may have another answer. Both sides compute in float, each in its way: a line
-/// that grazes a sphere within rounding is a hit to one and a miss to the other.
-constexpr double tolerated_share = 1e-3;
+/// that grazes a sphere within rounding is a hit to one and a miss to the other. And what a ray meets within own_margin
+/// radii of the sphere it left, Embree is kept from: on a ground of radius 500 that is where a pebble touches it.
+constexpr double tolerated_share = 2e-3;
 
 bool same(const PeerHit& a, const PeerHit& b) {
     if (a.id == kernels::no_sphere || b.id == kernels::no_sphere) return a.id == b.id;
@@ -75,25 +77,28 @@ void run_embree(benchmark::State& state, World& world, const PeerQueue& queue, b
     const auto& spheres = world.plan().spheres();
     const FlushDenormals as_its_manual_asks;
 
+    // Google Benchmark calls this several times; answers are compared once.
+    static std::map<std::string, std::size_t> compared;
+    const auto [different, is_new] = compared.try_emplace(fmt::format("{}/{}/{}", world.name(), queue.name, who));
     std::vector<Queries<Way, width>> queries;
-    std::size_t rays = 0, different = 0;
+    std::size_t rays = 0;
     for (const StageCall* call : world.recording().of(queue.stage, queue.bounce)) {
         call->before.restore(world.workspace().work);
         const WaveStorage& wave = world.workspace().work;
         queries.emplace_back(call->stage == "shadow" ? peer_rays(spheres, wave.shadows, call->rays, call->skip)
                                                      : peer_rays(spheres, wave.rays, call->rays));
-        queries.back().ask(scene, context);
-        different += queries.back().different(our_answers(*call, world.workspace()));
         rays += call->rays;
+        if (!is_new) continue;
+        queries.back().ask(scene, context);
+        different->second += queries.back().different(our_answers(*call, world.workspace()));
     }
-    state.counters["different"] = static_cast<double>(different);
-    if (static_cast<double>(different) > tolerated_share * static_cast<double>(rays))
-        return fail(state, fmt::format("{} of {} answers are not ours", different, rays));
+    if (static_cast<double>(different->second) > tolerated_share * static_cast<double>(rays))
+        return fail(state, fmt::format("{} of {} answers are not ours", different->second, rays));
     std::vector<Piece> pieces;
     for (auto& call : queries)
         pieces.push_back({[&call] { call.refresh(); }, [&call, scene, &context] { call.ask(scene, context); }});
     time_passes(state, pieces, static_cast<double>(rays));
-    describe_peer(state, world, who.c_str());
+    describe_peer(state, world, fmt::format("{} (of {} answers {} differ)", who, rays, different->second));
 }
 
 template <template <int> class Way, int width>

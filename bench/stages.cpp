@@ -13,7 +13,7 @@ void run_stage(benchmark::State& state, World& world, const std::string& stage, 
     const auto calls = world.recording().of(stage, bounce);
     const auto& stages = kernels::stages_for(isa);
     Workspace& space = world.workspace();
-    if (const std::string fault = fault_of(calls, stages, space); !fault.empty()) return fail(state, fault);
+    if (const std::string& fault = world.fault(stage, bounce, isa); !fault.empty()) return fail(state, fault);
     std::vector<Piece> pieces;
     double rays = 0, bytes = 0;
     for (const StageCall* call : calls) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <numeric>
 #include <string>
 #include <thread>
 
@@ -26,9 +27,10 @@ double measure_ticks_per_second() {
     return static_cast<double>(last - first) / std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The process's time on processors, in ticks.
-std::uint64_t processor_ticks() {
-    return static_cast<std::uint64_t>(static_cast<double>(std::clock()) / CLOCKS_PER_SEC * ticks_per_second());
+double processor_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 int failed = 0;
@@ -38,6 +40,15 @@ int failed = 0;
 double ticks_per_second() {
     static const double rate = measure_ticks_per_second();
     return rate;
+}
+
+Stopwatch::Stopwatch(TimedBy clock)
+    : clock_(clock), processor_(clock == TimedBy::processor ? processor_seconds() : 0), wall_(ticks()) {}
+
+double Stopwatch::seconds() const {
+    const double wall = static_cast<double>(ticks() - wall_) / ticks_per_second();
+    // The wall's is the finer one; it is the longer one only where another process had its turn.
+    return clock_ == TimedBy::wall ? wall : std::min(wall, processor_seconds() - processor_);
 }
 
 #if defined(__linux__)
@@ -87,28 +98,36 @@ void HardwareCounters::stop() {}
 
 #endif
 
-void time_passes(benchmark::State& state, const std::vector<Piece>& pieces, double rays, TimedBy clock) {
-    const auto now = clock == TimedBy::wall ? ticks : processor_ticks;
-    std::vector<std::vector<std::uint64_t>> samples(pieces.size());
+std::vector<double> time_pieces(benchmark::State& state, const std::vector<Piece>& pieces, TimedBy clock) {
+    std::vector<std::vector<double>> samples(pieces.size());
     for (auto _ : state) {
-        std::uint64_t pass = 0;
+        double pass = 0;
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             pieces[i].prepare();
-            const std::uint64_t start = now();
+            const Stopwatch watch(clock);
             pieces[i].run();
-            samples[i].push_back(now() - start);
+            samples[i].push_back(watch.seconds());
             pass += samples[i].back();
         }
-        state.SetIterationTime(static_cast<double>(pass) / ticks_per_second());
+        state.SetIterationTime(pass);
     }
-    double pass = 0;
+    std::vector<double> seconds;
     for (auto& sample : samples) {
         const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
         std::nth_element(sample.begin(), middle, sample.end());
-        pass += static_cast<double>(*middle);
+        seconds.push_back(*middle);
     }
-    state.counters["Rays/s"] = rays * ticks_per_second() / pass;
-    state.counters["cycles/ray"] = pass / rays;
+    return seconds;
+}
+
+void set_rates(benchmark::State& state, double seconds, double rays) {
+    state.counters["Rays/s"] = rays / seconds;
+    state.counters["cycles/ray"] = seconds * ticks_per_second() / rays;
+}
+
+void time_passes(benchmark::State& state, const std::vector<Piece>& pieces, double rays) {
+    const auto seconds = time_pieces(state, pieces, TimedBy::processor);
+    set_rates(state, std::accumulate(seconds.begin(), seconds.end(), 0.0), rays);
     HardwareCounters counters;
     if (!counters.available()) return;
     for (const Piece& piece : pieces) {

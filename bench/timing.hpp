@@ -31,6 +31,23 @@ inline std::uint64_t ticks() {
 /// Measured once, over 50 ms.
 double ticks_per_second();
 
+enum class TimedBy : std::uint8_t {
+    wall,       ///< what passes, others' turns on the processor included: the only measure of several threads
+    processor,  ///< what this process gets of it, for one thread
+};
+
+/// Seconds since it was made.
+class Stopwatch {
+public:
+    explicit Stopwatch(TimedBy clock);
+    double seconds() const;
+
+private:
+    TimedBy clock_;
+    double processor_;  ///< this process's time, in seconds
+    std::uint64_t wall_;
+};
+
 /// Core cycles and instructions of this thread in user mode, where the machine lets us count them.
 class HardwareCounters {
 public:
@@ -57,16 +74,15 @@ struct Piece {
     std::function<void()> prepare, run;
 };
 
-enum class TimedBy : std::uint8_t {
-    wall,       ///< the time-stamp counter: good to a microsecond
-    processor,  ///< the process's time on processors: what takes milliseconds, on one thread
-};
+/// Runs passes over all pieces until the benchmark has had enough. Returns each piece's *median* time in seconds:
+/// neighbours on a shared machine interrupt a few pieces for milliseconds, which a mean would not survive.
+std::vector<double> time_pieces(benchmark::State& state, const std::vector<Piece>& pieces, TimedBy clock);
 
-/// Runs passes over all pieces until the benchmark has had enough and sets the counters Rays/s and cycles/ray (of the
-/// time-stamp counter) from each piece's *median* time: neighbours on a shared machine interrupt a few pieces for
-/// milliseconds, which a mean would not survive; core_cycles/ray and instructions/ray where the machine counts them.
-/// `rays` is a pass's.
-void time_passes(benchmark::State& state, const std::vector<Piece>& pieces, double rays, TimedBy clock = TimedBy::wall);
+/// Sets the counters Rays/s and cycles/ray (of the time-stamp counter) of a pass over `rays` that took `seconds`.
+void set_rates(benchmark::State& state, double seconds, double rays);
+
+/// time_pieces and set_rates of the sum; core_cycles/ray and instructions/ray as well where the machine counts them.
+void time_passes(benchmark::State& state, const std::vector<Piece>& pieces, double rays);
 
 /// Notes that a benchmark's result is wrong: the program will fail.
 void fail(benchmark::State& state, const std::string& reason);

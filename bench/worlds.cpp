@@ -76,6 +76,12 @@ Workspace& World::workspace() {
     return *workspace_;
 }
 
+const std::string& World::fault(const std::string& stage, std::uint32_t bounce, Isa isa) {
+    const auto [found, is_new] = faults_.try_emplace({stage, bounce, isa});
+    if (is_new) found->second = fault_of(recording().of(stage, bounce), kernels::stages_for(isa), workspace());
+    return found->second;
+}
+
 #if ORRERY_EMBREE
 EmbreeScene& World::embree(bool occlusion) {
     auto& scene = embree_[occlusion ? 1 : 0];

@@ -4,9 +4,11 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "bench/check.hpp"
 #include "bench/options.hpp"
@@ -41,6 +43,8 @@ public:
     const Plan& plan();
     const Recording& recording();
     Workspace& workspace();
+    /// What `isa` computes wrong in the recorded calls of a stage, empty if nothing (check.hpp). Checked once.
+    const std::string& fault(const std::string& stage, std::uint32_t bounce, Isa isa);
     /// The spheres in Embree, set up for closest hits or for occlusion. Only where Embree is built in.
     EmbreeScene& embree(bool occlusion);
 
@@ -51,6 +55,7 @@ private:
     std::unique_ptr<Plan> plan_;
     std::optional<Recording> recording_;
     std::unique_ptr<Workspace> workspace_;
+    std::map<std::tuple<std::string, std::uint32_t, Isa>, std::string> faults_;
     std::unique_ptr<EmbreeScene> embree_[2];
 };
 
