@@ -116,7 +116,11 @@ void add_machine(CLI::App& app, Arguments& arguments) {
 }
 
 void add_reports(CLI::App& app, Arguments& arguments) {
-    add_option(app, "--stats", "FILE.json", "Write times, ray counts and the plan as JSON; - is standard output",
+    add_option(app, "--error-image", "FILE", "Write every pixel's standard error, linear: .pfm or .exr",
+               [&](const std::string& text) { arguments.error_image = text; })
+        ->group("Reports");
+    add_option(app, "--stats", "FILE.json",
+               "Write times, ray counts, the image's error and the plan as JSON; - is standard output",
                [&](const std::string& text) { arguments.stats = text; })
         ->group("Reports");
     app.add_flag("--profile", arguments.profile, "Print where the time went, by stage and bounce")->group("Reports");

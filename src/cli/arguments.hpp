@@ -40,12 +40,13 @@ struct Arguments {
     Generation generation;
     ComparisonRequest comparison;
     std::vector<std::filesystem::path> outputs;  ///< empty: where the scene says
-    std::optional<std::string> stats;            ///< a file, or "-" for standard output
-    unsigned threads = 0;                        ///< 0: all cores
-    Isa isa = best_isa();                        ///< supported by this machine
-    std::uint32_t wave_size = 0;                 ///< 0: the default
-    bool profile = false;                        ///< print where the time went
-    bool quiet = false;                          ///< neither progress nor warnings
+    std::optional<std::filesystem::path> error_image;
+    std::optional<std::string> stats;  ///< a file, or "-" for standard output
+    unsigned threads = 0;              ///< 0: all cores
+    Isa isa = best_isa();              ///< supported by this machine
+    std::uint32_t wave_size = 0;       ///< 0: the default
+    bool profile = false;              ///< print where the time went
+    bool quiet = false;                ///< neither progress nor warnings
 };
 
 /// A command line that is answered with text and nothing else: help, the version, or what is wrong with it.

@@ -29,13 +29,15 @@ std::string canonical_options(const RenderSettings& s, ImageFormat format) {
     return text;
 }
 
-Metadata image_metadata(const Plan& plan, ImageFormat format) {
+Metadata image_metadata(const Plan& plan, ImageFormat format, std::string_view content) {
     const RenderSettings& settings = plan.settings();
-    return {{"scene", plan.scene().file.filename().string()},
-            {"seed", std::to_string(settings.seed)},
-            {"samples", std::to_string(plan.samples())},
-            {"options", canonical_options(settings, format)},
-            {"version", fmt::format("orrery {}", version())}};
+    Metadata metadata = {{"scene", plan.scene().file.filename().string()},
+                         {"seed", std::to_string(settings.seed)},
+                         {"samples", std::to_string(plan.samples())},
+                         {"options", canonical_options(settings, format)},
+                         {"version", fmt::format("orrery {}", version())}};
+    if (content != "radiance") metadata.emplace_back("content", content);
+    return metadata;
 }
 
 }  // namespace orrery

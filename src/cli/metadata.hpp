@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "image/image_file.hpp"
 #include "plan/plan.hpp"
@@ -15,6 +16,7 @@ std::string canonical_options(const RenderSettings& settings, ImageFormat format
 
 /// Scene (the file's name, not the folders of somebody's machine), seed, samples, options and version. Nothing that
 /// threads, waves, the machine or the clock decide: the same seed gives the same bytes.
-Metadata image_metadata(const Plan& plan, ImageFormat format);
+/// `content` is what the pixels are, "radiance" where it goes without saying.
+Metadata image_metadata(const Plan& plan, ImageFormat format, std::string_view content = "radiance");
 
 }  // namespace orrery

@@ -20,6 +20,13 @@ fs::path identity(const fs::path& file) {
     return error ? file : canonical;
 }
 
+/// Standard errors are no colours: tone mapped to 8 bit they would mean nothing.
+void require_linear(const fs::path& file) {
+    const ImageFormat format = image_format(file);
+    if (format == ImageFormat::pfm || format == ImageFormat::exr) return;
+    throw UsageError(fmt::format("--error-image: found {}, expected a file ending in .pfm or .exr", file.string()));
+}
+
 }  // namespace
 
 void require_known_ending(const fs::path& file, const std::string& option) {
@@ -49,6 +56,11 @@ Outputs choose_outputs(const Arguments& arguments, const Scene& scene) {
         require_known_ending(own, scene.file.string() + ":/scene/renderer/output");
         outputs.images.push_back(own);
     }
+    if (arguments.error_image) {
+        require_known_ending(*arguments.error_image, "--error-image");
+        require_linear(*arguments.error_image);
+        outputs.error_image = arguments.error_image;
+    }
     if (arguments.stats == "-") {
         outputs.stats_to_standard_output = true;
     } else if (arguments.stats) {
@@ -56,6 +68,7 @@ Outputs choose_outputs(const Arguments& arguments, const Scene& scene) {
     }
 
     std::vector<fs::path> written = outputs.images;
+    if (outputs.error_image) written.push_back(*outputs.error_image);
     if (outputs.stats) written.push_back(*outputs.stats);
     require_different_files({scene.file}, written);
     return outputs;
@@ -68,6 +81,7 @@ void require_writable(const Outputs& outputs, const Scene& scene) {
         if (image == scene.settings.output && image.has_parent_path()) fs::create_directory(image.parent_path(), error);
         static_cast<void>(writable_target(image));
     }
+    if (outputs.error_image) static_cast<void>(writable_target(*outputs.error_image));
     if (outputs.stats) static_cast<void>(writable_target(*outputs.stats));
 }
 

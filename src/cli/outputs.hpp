@@ -12,13 +12,14 @@
 namespace orrery {
 
 struct Outputs {
-    std::vector<std::filesystem::path> images;   ///< at least one, each of a known ending
-    std::optional<std::filesystem::path> stats;  ///< a file
+    std::vector<std::filesystem::path> images;         ///< at least one, each of a known ending
+    std::optional<std::filesystem::path> error_image;  ///< a file that holds linear values
+    std::optional<std::filesystem::path> stats;        ///< a file
     bool stats_to_standard_output = false;
 };
 
 /// What the command line names; without an image there, the scene's own. Throws UsageError where there is none, an
-/// ending is unknown, or a file is named twice (as the scene, say). Touches nothing.
+/// ending is unknown or does not fit, or a file is named twice (as the scene, say). Touches nothing.
 Outputs choose_outputs(const Arguments& arguments, const Scene& scene);
 
 /// Throws UsageError where two of `written` are one file, under whatever names, or one of them is also `read`.

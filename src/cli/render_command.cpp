@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <span>
 #include <variant>
 
@@ -31,6 +34,7 @@ std::variant<RenderResult, Stopped> render_until_signal(const Plan& plan, const 
     options.threads = arguments.threads;
     options.isa = arguments.isa;
     options.wave_size = arguments.wave_size;
+    options.standard_error = arguments.error_image.has_value();
     options.interrupted = [&] { return signals.caught() != 0; };
     if (bar.shows()) options.progress = [&](double fraction, std::uint64_t rays) { bar.update(fraction, rays); };
     try {
@@ -42,11 +46,12 @@ std::variant<RenderResult, Stopped> render_until_signal(const Plan& plan, const 
 }
 
 /// One file's failure does not keep the others from being written. Returns those that were.
-std::vector<fs::path> write_images(const std::vector<fs::path>& files, const Plan& plan, const Image& image) {
+std::vector<fs::path> write_images(const std::vector<fs::path>& files, const Plan& plan, const Image& image,
+                                   std::string_view content) {
     std::vector<fs::path> written;
     for (const fs::path& file : files) {
         try {
-            write_image(file, image, tone_mapper(plan.settings()), image_metadata(plan, image_format(file)));
+            write_image(file, image, tone_mapper(plan.settings()), image_metadata(plan, image_format(file), content));
             written.push_back(file);
         } catch (const std::runtime_error& fault) {
             print_error(fault.what());
@@ -55,11 +60,18 @@ std::vector<fs::path> write_images(const std::vector<fs::path>& files, const Pla
     return written;
 }
 
+/// ", error 2.13 % (2.05 to 2.21)", or nothing where nothing is known.
+std::string error_text(const RootMeanSquare& error) {
+    if (!std::isfinite(error.value)) return "";
+    return fmt::format(", error {:.3g} % ({:.3g} to {:.3g})", 100 * error.value, 100 * error.low, 100 * error.high);
+}
+
 void print_summary(const Plan& plan, const RenderStats& stats) {
     const RenderSettings& settings = plan.settings();
-    print_message(fmt::format("{}: {} x {}, {} samples per pixel in {:.2f} s, {:.1f} Mrays/s ({}, {} threads)\n",
+    print_message(fmt::format("{}: {} x {}, {} samples per pixel in {:.2f} s, {:.1f} Mrays/s ({}, {} threads){}\n",
                               plan.scene().file.string(), settings.width, settings.height, stats.samples_per_pixel,
-                              stats.seconds, rays_per_second(stats) / 1e6, isa_name(stats.isa), stats.threads));
+                              stats.seconds, rays_per_second(stats) / 1e6, isa_name(stats.isa), stats.threads,
+                              error_text(stats.error.relative)));
 }
 
 void write_stats(const Outputs& outputs, const std::string& json) {
@@ -78,9 +90,15 @@ int render_command(const Arguments& arguments) {
     const Plan plan(std::move(*scene));
     const auto outcome = render_until_signal(plan, arguments);
     if (const auto* stopped = std::get_if<Stopped>(&outcome)) return exit_code::ended_by(stopped->signal);
-    const auto& [image, stats] = std::get<RenderResult>(outcome);
+    const auto& [image, standard_error, stats] = std::get<RenderResult>(outcome);
 
-    const std::vector<fs::path> written = write_images(outputs.images, plan, image);
+    std::vector<fs::path> written = write_images(outputs.images, plan, image, "radiance");
+    std::size_t asked = outputs.images.size();
+    if (outputs.error_image) {
+        ++asked;
+        std::ranges::copy(write_images({*outputs.error_image}, plan, standard_error, "standard error"),
+                          std::back_inserter(written));
+    }
     if (!arguments.quiet) {
         print_summary(plan, stats);
         if (stats.dropped_samples > 0)
@@ -91,7 +109,7 @@ int render_command(const Arguments& arguments) {
     if (!outputs.stats_to_standard_output)
         for (const fs::path& file : written) print_result(file.string() + "\n");
     write_stats(outputs, statistics_json(plan, stats, written));
-    return written.size() == outputs.images.size() ? exit_code::done : exit_code::failed;
+    return written.size() == asked ? exit_code::done : exit_code::failed;
 }
 
 }  // namespace orrery

@@ -1,5 +1,6 @@
 #include "cli/statistics.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/version.hpp"
@@ -34,6 +35,12 @@ Json profile(const RenderStats& stats) {
     }
     rows.push_back({{"stage", "others"}, {"seconds", stats.profile.others}});
     return rows;
+}
+
+/// null where nothing tells, as with one sample per pixel.
+Json error_json(const RootMeanSquare& error) {
+    if (!std::isfinite(error.value)) return nullptr;
+    return {{"estimate", error.value}, {"interval_95", {error.low, error.high}}};
 }
 
 Json decisions(const Plan& plan) {
@@ -73,6 +80,8 @@ std::string statistics_json(const Plan& plan, const RenderStats& stats,
         {"rays_per_second", rays_per_second(stats)},
         {"stage_seconds", stage_seconds(stats)},
         {"profile", profile(stats)},
+        {"relative_error", error_json(stats.error.relative)},
+        {"rmse", error_json(stats.error.absolute)},
         {"dropped_samples", stats.dropped_samples},
         {"plan", decisions(plan)},
     };

@@ -1,6 +1,7 @@
 #include "film/film.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace orrery {
 
@@ -14,6 +15,21 @@ Image Film::mean() const {
                    static_cast<float>(sum.b / count)};
     });
     return image;
+}
+
+PixelEstimate Film::estimate(std::size_t pixel) const {
+    const Pixel& sum = pixels_[pixel];
+    const Spread& spread = spreads_[pixel];
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    if (sum.samples == 0) return {{}, {unknown, unknown, unknown}, 0};
+    const auto n = static_cast<double>(sum.samples);
+    const Rgb64 mean{sum.r / n, sum.g / n, sum.b / n};
+    if (spread.members == 0) return {mean, {unknown, unknown, unknown}, 0};
+    // The members' sum has the variance `squares`; the sum of all samples has as much more as they are more, and the
+    // mean n^2 times less.
+    const double scale = 1 / (static_cast<double>(spread.members) * n);
+    const Rgb64& squares = spread.squares;
+    return {mean, {squares.r * scale, squares.g * scale, squares.b * scale}, static_cast<double>(spread.contrasts)};
 }
 
 }  // namespace orrery

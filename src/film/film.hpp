@@ -25,15 +25,35 @@ struct Image {
     const Rgb& at(std::uint32_t x, std::uint32_t y) const { return pixels[std::size_t{y} * width + x]; }
 };
 
+/// Three doubles, one per channel.
+struct Rgb64 {
+    double r = 0, g = 0, b = 0;
+};
+
+/// What the samples of a pixel tell about the error of their sum (contrasts.hpp says how).
+struct Spread {
+    Rgb64 squares;              ///< sums of squared contrasts
+    std::uint64_t members = 0;  ///< samples in those contrasts: their sum has the variance `squares`
+    std::uint64_t contrasts = 0;
+};
+
+/// A pixel's mean, how far it may be from the truth, and from how much that is known.
+struct PixelEstimate {
+    Rgb64 mean;
+    Rgb64 variance;      ///< of `mean`; infinite where nothing tells, as with a single sample
+    double degrees = 0;  ///< of freedom of `variance`
+};
+
 /// Sums of samples. Sums are double because a float sum of 2^24 samples is wrong by percents.
 /// Not thread safe per pixel; distinct pixels may be written by distinct threads without a lock.
 class Film {
 public:
     Film(std::uint32_t width, std::uint32_t height)
-        : width_(width), height_(height), pixels_(std::size_t{width} * height) {}
+        : width_(width), height_(height), pixels_(std::size_t{width} * height), spreads_(std::size_t{width} * height) {}
 
     std::uint32_t width() const { return width_; }
     std::uint32_t height() const { return height_; }
+    std::size_t pixels() const { return pixels_.size(); }
 
     /// Adds one sample to a pixel (index = y * width + x). A sample that is not finite never gets in.
     /// Returns false when it was dropped.
@@ -53,11 +73,18 @@ public:
         return dropped;
     }
 
+    /// What the samples of a pixel tell about its error; whoever learns more, sets it.
+    const Spread& spread(std::size_t pixel) const { return spreads_[pixel]; }
+    void set_spread(std::size_t pixel, const Spread& spread) { spreads_[pixel] = spread; }
+
     /// How many samples got into a pixel.
     std::uint64_t samples(std::size_t pixel) const { return pixels_[pixel].samples; }
 
     /// Mean of the samples that got in; black where there is none.
     Image mean() const;
+
+    /// A pixel's mean and variance; black where there is no sample.
+    PixelEstimate estimate(std::size_t pixel) const;
 
 private:
     struct Pixel {
@@ -76,8 +103,10 @@ private:
         ++sum.samples;
         return true;
     }
+
     std::uint32_t width_, height_;
     std::vector<Pixel> pixels_;
+    std::vector<Spread> spreads_;  ///< apart: what a render sums most often stays dense
 };
 
 }  // namespace orrery

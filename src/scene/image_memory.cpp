@@ -14,7 +14,7 @@ std::optional<std::uint64_t> physical_memory() {
 }
 
 std::optional<std::string> too_many_pixels(std::uint32_t width, std::uint32_t height, std::uint64_t memory) {
-    // 65536^2 * 56 is below 2^38; with any 32-bit width and height the pixels alone still fit 64 bits.
+    // 65536^2 * 108 is below 2^39; with any 32-bit width and height the pixels alone still fit 64 bits.
     const std::uint64_t pixels = std::uint64_t{width} * height;
     if (pixels <= memory / bytes_per_pixel) return std::nullopt;
     const auto gigabytes = [](double bytes) { return bytes / 1e9; };

@@ -7,9 +7,9 @@
 
 namespace orrery {
 
-/// What a pixel costs while an image is made: the film's sums in double and its sample count (32), the mean in float
-/// (12) and its tone-mapped copy (12).
-inline constexpr std::uint64_t bytes_per_pixel = 56;
+/// What a pixel costs while an image is made: the film's sums in double and its sample count (32), what it knows of its
+/// error (40), the mean in float (12), its tone-mapped copy (12) and the standard error (12).
+inline constexpr std::uint64_t bytes_per_pixel = 108;
 
 /// Bytes of physical memory; empty where the system does not tell.
 std::optional<std::uint64_t> physical_memory();

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "wavefront/develop.hpp"
 #include "wavefront/stage_timer.hpp"
 #include "wavefront/tile.hpp"
 #include "wavefront/wave.hpp"
@@ -44,14 +45,6 @@ private:
     Clock::time_point last_{};
 };
 
-/// DEPTH's post-process per pixel: 1 - I / (1 + I), written without the cancellation.
-void invert_distances(Image& image) {
-    for (Rgb& p : image.pixels) {
-        const float v = 1.0f / (1.0f + p.r);
-        p = {v, v, v};
-    }
-}
-
 }  // namespace
 
 RenderResult render(const Plan& plan, const RenderOptions& options) {
@@ -65,6 +58,7 @@ RenderResult render(const Plan& plan, const RenderOptions& options) {
 
     Film film(settings.width, settings.height);
     const Tiling tiles(settings.width, settings.height, plan.samples());
+    const Pattern pattern = whole_pattern(plan);
     tbb::enumerable_thread_specific<Wave> waves([&] { return Wave(plan, stages, film, wave_size); });
     Progress progress(options, tiles.size());
     std::atomic<bool> stopped = false;
@@ -80,7 +74,7 @@ RenderResult render(const Plan& plan, const RenderOptions& options) {
                 Wave& wave = waves.local();
                 for (std::size_t i = range.begin(); i != range.end() && !stopped; ++i) {
                     const std::uint64_t before = wave.counters.closest_rays + wave.counters.shadow_rays;
-                    if (!render_tile(wave, tiles[i], options.interrupted)) stopped = true;
+                    if (!render_tile(wave, tiles[i], pattern, options.interrupted)) stopped = true;
                     progress.tile_done(wave.counters.closest_rays + wave.counters.shadow_rays - before);
                 }
             },
@@ -106,8 +100,11 @@ RenderResult render(const Plan& plan, const RenderOptions& options) {
     stats.profile.others = stats.seconds * threads;
     for (std::size_t s = 0; s < stage_names.size(); ++s)
         stats.profile.others -= stats.profile.total(static_cast<Stage>(s)).seconds;
-    RenderResult result{film.mean(), stats};
-    if (settings.integrator == Integrator::depth) invert_distances(result.image);
+    RenderResult result;
+    result.image = develop(film, settings.integrator);
+    if (options.standard_error) result.standard_error = develop_error(film, settings.integrator);
+    arena.execute([&] { stats.error = estimate_error(film, settings.integrator, result.image); });
+    result.stats = stats;
     return result;
 }
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "film/film.hpp"
+#include "film/error.hpp"
 #include "kernels/isa.hpp"
 #include "plan/plan.hpp"
 #include "wavefront/profile.hpp"
@@ -20,6 +20,7 @@ struct RenderOptions {
     std::function<void(double fraction, std::uint64_t rays)> progress;
     /// Polled between waves; true abandons the render, which then throws Interrupted. May be empty.
     std::function<bool()> interrupted;
+    bool standard_error = false;  ///< also the error of every pixel, as an image
 };
 
 struct Interrupted {};
@@ -36,10 +37,12 @@ struct RenderStats {
     std::uint64_t bytes_per_ray = 0;    ///< all queue storage per (pixel, sample) pair of a wave
     std::uint64_t queue_bytes = 0;      ///< all queue storage per thread
     std::uint64_t dropped_samples = 0;  ///< not finite, kept out of the film
+    ImageError error;                   ///< of the image, as its samples tell
 };
 
 struct RenderResult {
-    Image image;  ///< linear radiance; for DEPTH the post-processed distance in [0, 1)
+    Image image;           ///< linear radiance; for DEPTH the post-processed distance in [0, 1)
+    Image standard_error;  ///< of `image`, where asked for, else empty; infinite where nothing tells
     RenderStats stats;
 };
 

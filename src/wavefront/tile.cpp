@@ -29,40 +29,44 @@ void flush(Wave& wave) {
     for (std::uint32_t s = 0; s < wave.count;) {
         std::uint32_t end = s + 1;
         while (end < wave.count && slots.pixel[end] == slots.pixel[s]) ++end;
-        wave.counters.dropped_samples += wave.film.add(slots.pixel[s], slots.radiance + std::size_t{4} * s, end - s);
+        const float* const radiance = slots.radiance + std::size_t{4} * s;
+        wave.counters.dropped_samples += wave.film.add(slots.pixel[s], radiance, end - s);
+        wave.contrasts.add(wave.film, slots.pixel[s], radiance, end - s);
         s = end;
     }
     wave.count = 0;
 }
 
-/// Fills slots with the samples of one pixel from `sample` on, as many as fit. Returns the first sample left.
-std::uint32_t fill(Wave& wave, std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+/// Fills slots with the samples of one pixel from the `begin`-th of the pattern on, as many as fit. Returns the first
+/// left.
+std::uint32_t fill(Wave& wave, std::uint32_t x, std::uint32_t y, const Pattern& pattern, std::uint32_t begin) {
     const Plan& plan = wave.plan;
-    const std::uint32_t strata = plan.strata();
-    const double cell_width = 2 * plan.half_width() / plan.settings().width / strata;
-    const double cell_height = 2 * plan.half_height() / plan.settings().height / strata;
+    const bool one_cell = pattern.strata == 1;
+    const double cell_width = 2 * plan.half_width() / plan.settings().width / pattern.strata;
+    const double cell_height = 2 * plan.half_height() / plan.settings().height / pattern.strata;
     const double left = (2.0 * x / plan.settings().width - 1) * plan.half_width();
     const double top = (1 - 2.0 * y / plan.settings().height) * plan.half_height();
     const std::uint32_t pixel = y * plan.settings().width + x;
     const std::uint32_t first = wave.count;
-    const std::uint32_t count = std::min(plan.samples() - sample, wave.storage.slot_count - first);
+    const std::uint32_t count = std::min(pattern.samples() - begin, wave.storage.slot_count - first);
     const auto& slots = wave.storage.slots;
     const std::uint32_t end = first + count;
-    // A row of cells at a time, so that the inner loop is plain; to uniform samples the pixel is one cell.
-    const std::uint32_t row = strata > 1 ? strata : plan.samples();
-    const double step = strata > 1 ? cell_width : 0;
+    // A row of cells at a time, so that the inner loop is plain; all visits to a single cell are one row.
+    const std::uint32_t row = one_cell ? pattern.samples() : pattern.strata;
+    const std::uint32_t visits = one_cell ? 1 : pattern.visits;
+    const double step = one_cell ? 0 : cell_width;
     for (std::uint32_t s = first; s < end;) {
-        std::uint32_t cell_x = sample % row;
-        const auto y_of_row = static_cast<float>(top - sample / row * cell_height);
+        std::uint32_t cell_x = begin % row;
+        const auto y_of_row = static_cast<float>(top - begin / row / visits * cell_height);
         for (; s < end && cell_x < row; ++s, ++cell_x) {
             slots.pixel[s] = pixel;
-            slots.sample[s] = sample++;
+            slots.sample[s] = pattern.first + begin++;
             slots.plane_x[s] = static_cast<float>(left + cell_x * step);
             slots.plane_y[s] = y_of_row;
         }
     }
     wave.count += count;
-    return sample;
+    return begin;
 }
 
 }  // namespace
@@ -75,16 +79,16 @@ std::uint32_t choose_wave_size(const Plan& plan, std::uint32_t asked) {
     return size;
 }
 
-bool render_tile(Wave& wave, const Tile& tile, const std::function<bool()>& interrupted) {
-    const std::uint32_t samples = wave.plan.samples();
+bool render_tile(Wave& wave, const Tile& tile, const Pattern& pattern, const std::function<bool()>& interrupted) {
+    wave.contrasts.begin(pattern.strata, pattern.visits > 1);
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
-            for (std::uint32_t sample = 0; sample < samples;) {
+            for (std::uint32_t sample = 0; sample < pattern.samples();) {
                 if (wave.count == wave.storage.slot_count) {
                     if (interrupted && interrupted()) return false;
                     flush(wave);
                 }
-                sample = fill(wave, x, y, sample);
+                sample = fill(wave, x, y, pattern, sample);
             }
         }
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "wavefront/pattern.hpp"
 #include "wavefront/wave.hpp"
 
 namespace orrery {
@@ -37,8 +38,8 @@ private:
 /// (pixel, sample) pairs of a wave: what was asked for, or with 0 what was measured to be best for the plan's queues.
 std::uint32_t choose_wave_size(const Plan& plan, std::uint32_t asked);
 
-/// All samples of a tile's pixels onto the wave's film, a wave at a time. `interrupted` is polled between waves and may
-/// be empty. Returns false when interrupted.
-bool render_tile(Wave& wave, const Tile& tile, const std::function<bool()>& interrupted);
+/// The samples of `pattern` of a tile's pixels onto the wave's film, a wave at a time. `interrupted` is polled between
+/// waves and may be empty. Returns false when interrupted.
+bool render_tile(Wave& wave, const Tile& tile, const Pattern& pattern, const std::function<bool()>& interrupted);
 
 }  // namespace orrery

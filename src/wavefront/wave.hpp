@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "film/film.hpp"
+#include "film/contrasts.hpp"
 #include "kernels/stages.hpp"
 #include "wavefront/render.hpp"
 #include "wavefront/wave_storage.hpp"
@@ -34,6 +34,7 @@ struct Wave {
     const Plan& plan;
     const kernels::Stages<float>& stages;
     Film& film;
+    Contrasts contrasts;  ///< of the tile being rendered
     WaveStorage storage;
     WaveCounters counters;
     std::uint32_t count = 0;  ///< slots in use

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "image/image_file.hpp"
 #include "program.hpp"
 #include "world.hpp"
 
@@ -145,6 +147,32 @@ TEST_F(Outputs, OutOfMemoryIsAFailureWithAMessage) {
     EXPECT_THAT(folder.names(), ElementsAre("scenes"));
 }
 #endif
+
+TEST(ErrorImage, IsWrittenBesideTheOthersAndNamed) {
+    const TemporaryFolder folder;
+    const Outcome outcome = orrery(
+        {"render", scene_file("tests/diffuse_area.json"), "-o", "x.ppm", "--error-image", "e.exr", "--size", "9x7"},
+        {.folder = folder.path()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    EXPECT_EQ(outcome.output, "x.ppm\ne.exr\n");
+    EXPECT_THAT(load(folder / "e.exr"), HasSubstr("standard error"));
+    const Image errors = read_image(folder / "e.exr");
+    EXPECT_EQ(errors.width, 9u);
+    EXPECT_EQ(errors.height, 7u);
+    EXPECT_TRUE(std::ranges::any_of(errors.pixels, [](const Rgb& p) { return p.g > 0; }));
+}
+
+TEST(ErrorImage, IsLinearOrRefused) {
+    const TemporaryFolder folder;
+    for (const char* name : {"e.png", "e.ppm", "e.jpg", "x.exr"}) {
+        const Outcome outcome =
+            orrery({"render", scene_file("tests/diffuse_area.json"), "-o", "x.exr", "--error-image", name},
+                   {.folder = folder.path()});
+        EXPECT_EQ(outcome.exit_code, 2) << name;
+        EXPECT_THAT(outcome.error, HasSubstr(name));
+    }
+    EXPECT_TRUE(folder.names().empty());
+}
 
 }  // namespace
 }  // namespace orrery::test

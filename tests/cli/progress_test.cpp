@@ -70,7 +70,7 @@ TEST(Progress, IsShownOnATerminalAndCleanedUp) {
 TEST(Progress, IsAbsentElsewhere) {
     const TemporaryFolder folder;
     const Outcome outcome = orrery(a_second_of_work(folder));
-    EXPECT_THAT(outcome.error, Not(HasSubstr(" %")));
+    EXPECT_THAT(outcome.error, Not(HasSubstr(" left")));
     EXPECT_THAT(outcome.error, Not(HasSubstr("\r")));
 }
 

@@ -88,6 +88,24 @@ TEST(Statistics, ProfileEndsWithTheOthersAndSumsToTheWallTime) {
     EXPECT_EQ(closest, s["rays"]["closest"].get<std::uint64_t>());
 }
 
+TEST(Statistics, TellTheErrorOfTheImageOrNullWhereNothingTells) {
+    const TemporaryFolder folder;
+    const auto stats = [&](const char* samples) {
+        const Outcome outcome =
+            orrery({"render", scene_file("tests/diffuse_area.json"), "-o", "x.ppm", "--spp", samples, "--stats", "-"},
+                   {.folder = folder.path()});
+        return Json::parse(outcome.output);
+    };
+    const Json coarse = stats("16"), fine = stats("1024");
+    for (const char* kind : {"relative_error", "rmse"}) {
+        const double error = coarse[kind]["estimate"];
+        EXPECT_LT(coarse[kind]["interval_95"][0], error);
+        EXPECT_GT(coarse[kind]["interval_95"][1], error);
+        EXPECT_NEAR(fine[kind]["estimate"].get<double>() * 8, error, 0.25 * error) << "1 / sqrt(n)";
+        EXPECT_TRUE(stats("1")[kind].is_null());
+    }
+}
+
 TEST(Statistics, NameThePlan) {
     const TemporaryFolder folder;
     const Outcome outcome =

@@ -8,15 +8,15 @@ namespace orrery::test {
 namespace {
 
 TEST(ImageMemory, CountsPixelsAgainstMemory) {
-    EXPECT_FALSE(too_many_pixels(100, 10, 56'000).has_value());
-    EXPECT_TRUE(too_many_pixels(1001, 1, 56'000).has_value());
+    EXPECT_FALSE(too_many_pixels(100, 10, 108'000).has_value());
+    EXPECT_TRUE(too_many_pixels(1001, 1, 108'000).has_value());
     // The largest product must not wrap around.
     EXPECT_TRUE(too_many_pixels(0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF'FFFFFFFF).has_value());
 }
 
 TEST(ImageMemory, RefusalNamesTheFigures) {
     EXPECT_EQ(too_many_pixels(65536, 65536, 16'000'000'000),
-              "found 65536 x 65536, 4294967296 pixels that take 240.5 GB, expected an image that fits the 16.0 GB of "
+              "found 65536 x 65536, 4294967296 pixels that take 463.9 GB, expected an image that fits the 16.0 GB of "
               "memory");
 }
 

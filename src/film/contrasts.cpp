@@ -1,0 +1,120 @@
+#include "film/contrasts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orrery {
+namespace {
+
+/// Squares of contrasts as they are summed, one after the other: a sum does not depend on how a pixel's samples were
+/// cut into portions. Four lanes, of which the last stands for the unused number beside r, g and b.
+struct Squares {
+    double lane[4];
+    std::uint64_t contrasts;
+};
+
+/// What `value` makes of four channels, channel by channel. In float: its rounding is that of the samples, and equal
+/// ones still leave exactly zero. Unless `checked`, one that is not finite spoils the sum.
+template <bool checked, class Value>
+inline void add_square(Squares& sum, Value value) {
+    float contrast[4];
+    for (std::uint32_t c = 0; c < 4; ++c) contrast[c] = value(c);
+    if (checked && !std::isfinite(contrast[0] + contrast[1] + contrast[2])) return;
+    for (std::uint32_t c = 0; c < 4; ++c) sum.lane[c] += double{contrast[c]} * double{contrast[c]};
+    ++sum.contrasts;
+}
+
+/// a - b of two visits to a row, cell by cell.
+template <bool checked>
+inline void add_differences(Squares& sum, const float* row, const float* again, std::uint32_t columns) {
+    for (std::uint32_t i = 0; i < 4 * columns; i += 4)
+        add_square<checked>(sum, [&](std::uint32_t c) { return row[i + c] - again[i + c]; });
+}
+
+/// a - b - c + d of blocks side by side; in rows of odd length the last overlaps the one before.
+template <bool checked>
+inline void add_blocks(Squares& sum, const float* row, const float* next, std::uint32_t columns) {
+    const auto add = [&](std::uint32_t x) {
+        const float* const upper = row + 4 * x;
+        const float* const lower = next + 4 * x;
+        add_square<checked>(sum,
+                            [&](std::uint32_t c) { return (upper[c] - upper[c + 4]) - (lower[c] - lower[c + 4]); });
+    };
+    for (std::uint32_t x = 0; x + 2 <= columns; x += 2) add(x);
+    if (columns % 2 == 1) add(columns - 2);
+}
+
+/// A run of groups: pairs of visits, or two or three rows of cells.
+template <bool checked>
+void add_run(Squares& sum, const float* rgbx, std::uint32_t rows, std::uint32_t columns, bool twice) {
+    const std::size_t stride = std::size_t{4} * columns;
+    if (twice) {
+        for (std::uint32_t row = 0; row < rows; row += 2, rgbx += 2 * stride)
+            add_differences<checked>(sum, rgbx, rgbx + stride, columns);
+    } else {
+        for (std::uint32_t row = 0; row + 1 < rows; row += 2, rgbx += 2 * stride)
+            add_blocks<checked>(sum, rgbx, rgbx + stride, columns);
+        if (rows % 2 == 1) add_blocks<checked>(sum, rgbx - stride, rgbx, columns);
+    }
+}
+
+}  // namespace
+
+void Contrasts::begin(std::uint32_t columns, bool twice) {
+    columns_ = columns;
+    twice_ = twice;
+    pixel_ = no_pixel;
+    begun_.clear();
+    begun_.reserve(std::size_t{12} * columns);
+}
+
+void Contrasts::add(Film& film, std::size_t pixel, const float* rgbx, std::uint32_t count) {
+    if (columns_ == 1 && !twice_) return;
+    if (pixel != pixel_) {
+        pixel_ = pixel;
+        rows_done_ = 0;
+        begun_.clear();
+    }
+    Spread spread = film.spread(pixel);
+    while (count > 0) {
+        const std::uint32_t group = group_size();
+        const auto begun = static_cast<std::uint32_t>(begun_.size() / 4);
+        std::uint32_t taken = std::min(count, group - begun);
+        if (taken == group) {
+            // All pairs of visits at once; of rows visited once the last group is another.
+            if (twice_) taken = count - count % group;
+            add_rows(spread, rgbx, taken / columns_);
+        } else {
+            begun_.insert(begun_.end(), rgbx, rgbx + std::size_t{4} * taken);
+            if (begun + taken == group) {
+                add_rows(spread, begun_.data(), group / columns_);
+                begun_.clear();
+            }
+        }
+        rgbx += std::size_t{4} * taken;
+        count -= taken;
+    }
+    film.set_spread(pixel, spread);
+}
+
+/// Two rows; where an odd number of rows is visited once, the last three, so that none is left over.
+std::uint32_t Contrasts::group_size() const {
+    const bool last_of_odd = !twice_ && rows_done_ + 3 == columns_;
+    return (last_of_odd ? 3 : 2) * columns_;
+}
+
+void Contrasts::add_rows(Spread& spread, const float* rgbx, std::uint32_t rows) {
+    const Squares before{{spread.squares.r, spread.squares.g, spread.squares.b, 0}, spread.contrasts};
+    Squares sum = before;
+    add_run<false>(sum, rgbx, rows, columns_, twice_);
+    if (!std::isfinite(sum.lane[0] + sum.lane[1] + sum.lane[2])) {
+        sum = before;
+        add_run<true>(sum, rgbx, rows, columns_, twice_);
+    }
+    spread.squares = {sum.lane[0], sum.lane[1], sum.lane[2]};
+    spread.members += (sum.contrasts - spread.contrasts) * (twice_ ? 2 : 4);
+    spread.contrasts = sum.contrasts;
+    rows_done_ += rows;
+}
+
+}  // namespace orrery

@@ -1,0 +1,53 @@
+// What the samples of a pixel tell about the error of their sum.
+//
+// A contrast is a signed sum of samples that has expectation zero, so that its square, on average, is its variance:
+// that of the plain sum of the same samples, because signs do not matter to it and samples are independent. Summed over
+// contrasts without common samples this is the variance of the pixel's sum, whatever the samples' distributions are;
+// nothing is subtracted that could cancel, and equal samples give exactly zero.
+//
+// * Rows visited twice: a cell's two samples differ by nothing but chance, a - b. Exact; uniform samples are the case
+// of
+//   one cell.
+// * Rows visited once, the stratified estimator: no two samples have the same distribution, and the scatter of all of
+//   them counts what stratification has removed. Blocks of 2 x 2 cells give a - b - c + d, whose expectation vanishes
+//   where the radiance is f(x) + g(y): slopes, and edges along the grid. What an oblique edge leaves makes the estimate
+//   too large, never too small. Measured where edges are all the error there is (scene 2 at 64 x 64, 256 samples),
+//   true error over estimated, relative and RMSE, mean of 8 seeds:
+//     2 x 2 blocks                              0.90  0.96
+//     second differences of three in a row      0.87  0.94
+//     neighbours in a row, collapsed in pairs   0.74  0.75
+//     scatter of all samples, unstratified      0.27  0.07
+//   With noise as the larger part (scene 8) all four are within 2 % for the relative error.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "film/film.hpp"
+
+namespace orrery {
+
+/// Forms the contrasts of one pixel after the other. Owned by one thread.
+class Contrasts {
+public:
+    /// Samples come row by row of a grid of `columns` x `columns` cells, one in each cell of a row; with `twice` every
+    /// row comes a second time before the next. One column visited once has no contrasts.
+    void begin(std::uint32_t columns, bool twice);
+
+    /// Adds the next samples of a pixel to the film's spread: r, g, b and one unused number each. A pixel's samples may
+    /// come in any number of portions, one pixel at a time. A contrast with a sample that is not finite is left out.
+    void add(Film& film, std::size_t pixel, const float* rgbx, std::uint32_t count);
+
+private:
+    std::uint32_t group_size() const;
+    void add_rows(Spread& spread, const float* rgbx, std::uint32_t rows);
+
+    std::uint32_t columns_ = 1;
+    bool twice_ = true;
+    std::size_t pixel_ = no_pixel;
+    std::uint32_t rows_done_ = 0;  ///< of the present pixel
+    std::vector<float> begun_;     ///< samples of a group of rows that the last portion left incomplete
+    static constexpr std::size_t no_pixel = ~std::size_t{0};
+};
+
+}  // namespace orrery

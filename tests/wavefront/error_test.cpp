@@ -1,0 +1,165 @@
+// Every render knows its own error: what it says against what a converged render shows.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "wavefront/scenes.hpp"
+
+namespace orrery::test {
+namespace {
+
+struct Case {
+    const char* name;
+    Scene scene;
+    double narrowest, widest;  ///< share of renders whose error lies in their 95 % interval
+};
+
+Scene noisy(Estimator estimator) {
+    Scene scene = still_life(glossy(0.8, 0.3), 4);
+    add_lamp(scene, {-1.5, 4, -1}, 0.8, {8, 7, 6});
+    scene.background = {0.1, 0.2, 0.3};
+    scene.settings.samples = 16;
+    scene.settings.estimator = estimator;
+    return scene;
+}
+
+/// Edges are all the error there is.
+Scene whitted() {
+    Scene scene = still_life(glass(0.9, 1.5), 6);
+    add_point_light(scene, {-3, 5, -3}, {90, 80, 70});
+    scene.background = {0.3, 0.4, 0.5};
+    scene.settings.integrator = Integrator::whitted;
+    scene.settings.samples = 16;
+    return scene;
+}
+
+/// From inside a ball, so that all rays hit: what a first-order error of 1 - I/(1+I) can follow.
+Scene distances() {
+    Scene scene = still_life(diffuse(dvec3{0.5}), 0);
+    add_sphere(scene, {0, 0, 0}, 8, diffuse(dvec3{0.5}));
+    scene.settings.integrator = Integrator::depth;
+    scene.settings.samples = 16;
+    scene.settings.estimator = Estimator::uniform;
+    return scene;
+}
+
+constexpr std::uint32_t renders = 100;
+
+class Coverage : public testing::TestWithParam<int> {};
+
+// 95 % of 100 renders is 95 with a standard deviation of 2.2. Where 2 x 2 blocks meet oblique edges they claim too much
+// error rather than too little, and distances have three channels that are one: both widen the share downwards.
+TEST_P(Coverage, OfTheInterval) {
+    const Case cases[] = {{"uniform", noisy(Estimator::uniform), 0.88, 1},
+                          {"stratified", noisy(Estimator::stratified), 0.88, 1},
+                          {"edges", whitted(), 0.75, 1},
+                          {"distances", distances(), 0.85, 1}};
+    const Case& c = cases[GetParam()];
+    Scene scene = c.scene;
+    scene.settings.samples = 16384;
+    scene.settings.seed = 12345;
+    const Image truth = image_of(scene);
+    scene.settings.samples = c.scene.settings.samples;
+
+    int inside = 0, inside_absolute = 0;
+    double stated_squares = 0, made_squares = 0;
+    for (std::uint32_t seed = 0; seed < renders; ++seed) {
+        scene.settings.seed = seed;
+        const RenderResult result = render(scene);
+        double absolute = 0, relative = 0;
+        for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+            const Rgb &value = result.image.pixels[i], &true_value = truth.pixels[i];
+            for (const auto& [v, t] :
+                 {std::pair{value.r, true_value.r}, {value.g, true_value.g}, {value.b, true_value.b}}) {
+                const double square = std::pow(double{v} - t, 2);
+                absolute += square;
+                relative += square / (double{t} * t + 0.01);
+            }
+        }
+        const double numbers = 3.0 * static_cast<double>(truth.pixels.size());
+        absolute = std::sqrt(absolute / numbers);
+        relative = std::sqrt(relative / numbers);
+        const auto& [stated, stated_absolute] = result.stats.error;
+        inside += stated.low <= relative && relative <= stated.high ? 1 : 0;
+        inside_absolute += stated_absolute.low <= absolute && absolute <= stated_absolute.high ? 1 : 0;
+        stated_squares += stated_absolute.value * stated_absolute.value;
+        made_squares += absolute * absolute;
+    }
+    RecordProperty("inside", inside);
+    RecordProperty("inside_absolute", inside_absolute);
+    RecordProperty("made_over_stated", std::to_string(std::sqrt(made_squares / stated_squares)));
+    for (const int count : {inside, inside_absolute}) {
+        EXPECT_GE(count, c.narrowest * renders) << c.name << ": " << inside << ", " << inside_absolute;
+        EXPECT_LE(count, c.widest * renders) << c.name;
+    }
+    EXPECT_NEAR(std::sqrt(made_squares / stated_squares), 1, 0.15) << c.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Coverage, testing::Range(0, 4));
+
+TEST(StandardError, IsTheSameForAnyWaveSizeAndNumberOfThreads) {
+    for (const Estimator estimator : {Estimator::uniform, Estimator::stratified}) {
+        Scene scene = noisy(estimator);
+        scene.settings.samples = 25;
+        const auto result_of = [&](unsigned threads, std::uint32_t wave) {
+            RenderOptions options;
+            options.threads = threads;
+            options.wave_size = wave;
+            options.standard_error = true;
+            return orrery::render(Plan(scene), options);
+        };
+        const RenderResult expected = result_of(1, 2048);
+        for (const auto& [threads, wave] : {std::pair{1u, 1u}, {2u, 33u}, {7u, 100u}, {2u, 5000u}}) {
+            const RenderResult result = result_of(threads, wave);
+            EXPECT_EQ(result.standard_error.pixels, expected.standard_error.pixels) << threads << ", " << wave;
+            EXPECT_EQ(result.stats.error.relative.value, expected.stats.error.relative.value);
+            EXPECT_EQ(result.stats.error.absolute.high, expected.stats.error.absolute.high);
+        }
+    }
+}
+
+// Pixel by pixel: the squares of stated errors against the scatter between seeds.
+TEST(StandardError, OfAPixelIsItsScatterBetweenSeeds) {
+    const Scene scene = noisy(Estimator::stratified);
+    std::vector<double> sum(256), squares(256), stated(256);
+    constexpr std::uint32_t seeds = 60;
+    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+        Scene other = scene;
+        other.settings.seed = 500 + seed;
+        RenderOptions options;
+        options.standard_error = true;
+        const RenderResult result = orrery::render(Plan(other), options);
+        for (std::size_t i = 0; i < sum.size(); ++i) {
+            const double value = result.image.pixels[i].g;
+            sum[i] += value;
+            squares[i] += value * value;
+            stated[i] += std::pow(result.standard_error.pixels[i].g, 2) / seeds;
+        }
+    }
+    // A ratio of variances of 59 and some 240 degrees of freedom has a standard deviation of 0.2, and there are many.
+    double mean_ratio = 0;
+    int pixels = 0;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        const double scatter = (squares[i] - sum[i] * sum[i] / seeds) / (seeds - 1);
+        if (stated[i] == 0) continue;
+        mean_ratio += scatter / stated[i];
+        ++pixels;
+    }
+    EXPECT_GT(pixels, 150);
+    EXPECT_NEAR(mean_ratio / pixels, 1, 0.06);
+}
+
+TEST(StandardError, IsUnknownFromOneSample) {
+    Scene scene = noisy(Estimator::stratified);
+    scene.settings.samples = 3;  // one, stratified
+    RenderOptions options;
+    options.standard_error = true;
+    const RenderResult result = orrery::render(Plan(scene), options);
+    EXPECT_TRUE(std::isinf(result.stats.error.relative.value));
+    EXPECT_TRUE(std::isinf(result.standard_error.pixels[7].g));
+}
+
+TEST(StandardError, IsOnlyMadeWhenAskedFor) { EXPECT_TRUE(render(whitted()).standard_error.pixels.empty()); }
+
+}  // namespace
+}  // namespace orrery::test
