@@ -7,7 +7,7 @@
 
 namespace orrery {
 
-using Four = float [[gnu::vector_size(16)]];
+using Four __attribute__((vector_size(16))) = float;  // as both g++ and clang++ read it
 
 inline Four smaller(Four a, Four b) { return a < b ? a : b; }
 inline Four larger(Four a, Four b) { return a > b ? a : b; }

@@ -27,7 +27,7 @@ public:
         }
     }
     bool usable(unsigned axis) const { return usable_[axis]; }
-    using Places = std::int32_t [[gnu::vector_size(16)]];
+    using Places __attribute__((vector_size(16))) = std::int32_t;
     Places operator()(Four centre) const { return __builtin_convertvector((centre - low_) * scale_, Places); }
 
 private:
