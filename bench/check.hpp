@@ -17,8 +17,9 @@ struct Workspace {
 };
 
 /// Runs the calls once with `stages` and once with the scalar ones. Instruction sets with fused multiply-add must give
-/// the same bytes. SSE2 has none: its numbers may differ by 1e-3 (relative, absolute below 1), and in one record of 200
-/// by more, where a rounding turned a grazing hit or a random choice. Returns what is wrong, empty if nothing is.
+/// the same bytes. SSE2 has none: its numbers may differ by 1e-3 (relative, absolute below 1), and by more in one
+/// record of 200 and three besides, where a rounding turned a grazing hit or a random choice, or a density is near its
+/// singularity. Returns what is wrong, empty if nothing is.
 std::string fault_of(const std::vector<const StageCall*>& calls, const kernels::Stages<float>& stages,
                      Workspace& workspace);
 
