@@ -111,13 +111,15 @@ TEST(Compare, PixelsThatAreNotFiniteAreCountedAndLeftOut) {
     EXPECT_EQ(c.pixels, 5u);
     EXPECT_DOUBLE_EQ(c.mse, 1 / 15.0);
 
-    Image errors = filled(4, 2, {0.1f, 0.1f, 0.1f});
-    errors.at(3, 0).g = nan;
-    errors.at(3, 1).b = -1;
-    const Comparison with_errors = compare(a, b, &errors);
-    EXPECT_EQ(with_errors.without_error, 2u);
-    EXPECT_EQ(with_errors.pixels, 3u);
-    EXPECT_EQ(with_errors.mse, 0);
+    for (const Rgb& no_error : {Rgb{-1, 0, 0}, Rgb{0, -1, 0}, Rgb{0, 0, -1}, Rgb{0, infinity, 0}}) {
+        Image errors = filled(4, 2, {0.1f, 0.1f, 0.1f});
+        errors.at(3, 0).g = nan;
+        errors.at(3, 1) = no_error;
+        const Comparison with_errors = compare(a, b, &errors);
+        EXPECT_EQ(with_errors.without_error, 2u);
+        EXPECT_EQ(with_errors.pixels, 3u);
+        EXPECT_EQ(with_errors.mse, 0);
+    }
 }
 
 TEST(Compare, WhatCannotBeComparedIsRefused) {

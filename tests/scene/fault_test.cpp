@@ -56,6 +56,32 @@ TEST(Faults, SeveralAreAllReported) {
     EXPECT_FALSE(result.scene.has_value());
 }
 
+/// Places in the file's list, though the first pair left a gap in the scene's; and -0 is 0.
+TEST(Faults, CoincidentSpheresAreNamedByTheirPlaceInTheFile) {
+    Json json = world();
+    json["shapes"][2]["centre"] = {0, 0, 0};       // the left ball, primitive 2, where primitive 1 is
+    json["shapes"][3]["centre"] = {-0.0, 0, 3};    // the right one, primitive 3
+    json["shapes"][4]["centre"] = {0, -0.0, 3.0};  // the far one, primitive 4
+    const ReadResult result = read(json);
+    ASSERT_EQ(result.diagnostics.size(), 2u) << listing(result);
+    EXPECT_EQ(result.diagnostics[0].where, "/scene/primitives/2");
+    EXPECT_NE(result.diagnostics[0].message.find("same sphere as /scene/primitives/1,"), std::string::npos);
+    EXPECT_EQ(result.diagnostics[1].where, "/scene/primitives/4");
+    EXPECT_NE(result.diagnostics[1].message.find("same sphere as /scene/primitives/3,"), std::string::npos);
+    EXPECT_EQ(result.scene->primitives.size(), 4u);
+}
+
+/// Fields in an order of their own, each read where it stands.
+TEST(Faults, FieldsComeInAnyOrder) {
+    std::string text = world().dump();
+    const std::string in_order = R"({"aspect":1,"distance":5,"fov":45,"id":"eye",)";
+    const std::size_t at = text.find(in_order);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, in_order.size(), R"({"fov":45,"id":"eye","distance":5,"aspect":1,)");
+    const ReadResult result = read_scene_text(text, "x.json");
+    EXPECT_TRUE(result.diagnostics.empty()) << listing(result);
+}
+
 TEST(Faults, WhittedDepthIsLimitedAndOthersAreNot) {
     Json json = world();
     json["scene"]["renderer"]["depth"] = 21;
