@@ -45,7 +45,7 @@ ORRERY_INLINE Closest<V> closest_hit(const SphereTable<typename V::Real>& sphere
         best.num = choose(closer, t, best.num);
         best.id = choose(closer, left, best.id);
     }
-    const auto test = [&](std::uint32_t k) ORRERY_INLINE_LAMBDA {
+    for (std::uint32_t k = 0; k < spheres.count; ++k) {
         const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
         const F s = root(line.disc);
         const auto not_left = !words_equal(left_id, U(k));
@@ -59,11 +59,7 @@ ORRERY_INLINE Closest<V> closest_hit(const SphereTable<typename V::Real>& sphere
             const auto first = first_root<V>(line, s, t_min, not_left && line.disc > zero);
             keep_closer<V>(best, first.num, first.den, first.exists, choose(first.inside, U(k | inside_bit), U(k)));
         }
-        return false;
-    };
-    // A hair less, so that the rounding of the division hides no equal hit.
-    const auto limit = [&]() ORRERY_INLINE_LAMBDA { return best.den / best.num * F(0.99999f); };
-    for_spheres_near<V>(spheres, o, d, limit, test);
+    }
     return best;
 }
 
@@ -86,8 +82,8 @@ ORRERY_INLINE typename V::M any_hit(const SphereTable<typename V::Real>& spheres
         const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
         blocked = blocked || (inward && t * inverse_t_max < F(1));
     }
-    const auto test = [&](std::uint32_t k) ORRERY_INLINE_LAMBDA {
-        if (k == skip) return false;
+    for (std::uint32_t k = 0; k < spheres.count; ++k) {
+        if (k == skip) continue;
         const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
         const auto not_left = !words_equal(left_id, U(k));
         auto rest = not_left && line.disc > zero;
@@ -99,10 +95,8 @@ ORRERY_INLINE typename V::M any_hit(const SphereTable<typename V::Real>& spheres
             const auto first = first_root<V>(line, root(line.disc), t_min, rest);
             blocked = blocked || (first.exists && first.num * inverse_t_max < first.den);
         }
-        return all(blocked);
-    };
-    const auto limit = [&]() ORRERY_INLINE_LAMBDA { return inverse_t_max; };
-    for_spheres_near<V>(spheres, o, d, limit, test);
+        if (all(blocked)) break;
+    }
     return blocked && live;
 }
 

@@ -106,51 +106,6 @@ ORRERY_INLINE typename V::M near_root_before(const Chord<typename V::F>& chord, 
     return min(chord.disc, min(chord.b, chord.c)) > F(0) && g * magnitude(g) < chord.disc;
 }
 
-/// What a group's radius is enlarged by, relatively, and what its squared radius gains per squared distance. The line's
-/// distance l from the group's centre is computed to within 3 ulp of |f|, so l^2 errs by at most 2 l |f| 3 ulp, which
-/// is no more than margin l^2 + (3 ulp)^2 / margin f^2: a ray that by rounding hits a sphere never misses its group.
-inline constexpr double group_margin = 1e-3;
-inline constexpr float group_distance_margin = 0x1p-32f;
-
-/// Lanes whose ray may meet a sphere of group g closer than 1 / inverse_t_max. Errs on the side of yes.
-template <class V>
-ORRERY_INLINE typename V::M group_may_hit(const SphereGroups<typename V::Real>& groups, std::uint32_t g,
-                                          const Vec3<typename V::F>& origin, const Vec3<typename V::F>& direction,
-                                          const typename V::F& inverse_t_max) {
-    using F = typename V::F;
-    const Vec3<F> f = Vec3<F>{F(groups.cx[g]), F(groups.cy[g]), F(groups.cz[g])} - origin;
-    const F b = dot(f, direction);
-    const F distance2 = dot(f, f);
-    const Vec3<F> l = back_along(f, b, direction);
-    const F radius2 = mul_add(distance2, F(group_distance_margin), F(groups.radius2[g]));
-    const F disc = radius2 - dot(l, l);
-    const F c = distance2 - radius2;
-    return near_root_before<V>({b, c, disc}, inverse_t_max) || c < F(0);
-}
-
-/// Calls test(k) for every sphere that a live lane may meet closer than 1 / inverse_t_max(), in table order; stops
-/// where test returns true.
-template <class V, class Limit, class Test>
-ORRERY_INLINE void for_spheres_near(const SphereTable<typename V::Real>& spheres, const Vec3<typename V::F>& origin,
-                                    const Vec3<typename V::F>& direction, const Limit& inverse_t_max,
-                                    const Test& test) {
-    const auto& groups = spheres.groups;
-    std::uint32_t k = 0;
-    for (const std::uint32_t alone = groups.count == 0 ? spheres.count : groups.ungrouped; k < alone; ++k)
-        if (test(k)) return;
-    if (groups.count == 0) return;
-    auto limit = inverse_t_max();
-    for (std::uint32_t g = 0; g < groups.count; ++g) {
-        if (!any(group_may_hit<V>(groups, g, origin, direction, limit))) {
-            k = groups.end[g];
-            continue;
-        }
-        for (; k < groups.end[g]; ++k)
-            if (test(k)) return;
-        limit = inverse_t_max();
-    }
-}
-
 /// Where a ray that leaves sphere `left` inward meets it again: 2b, clamped at 0 for rounding at grazing incidence.
 template <class F>
 ORRERY_INLINE F inner_far_root(const Vec3<F>& origin, const Vec3<F>& direction, const Sphere<F>& sphere) {

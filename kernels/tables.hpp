@@ -24,20 +24,6 @@ inline constexpr std::uint32_t surface_kind_mask = 0x7F;
 inline constexpr std::uint32_t inside_bit = 1u << 31;
 inline constexpr std::uint32_t no_sphere = 0x7FFFFFFFu;
 
-/// Neighbouring spheres with a bounding sphere around each bunch, so that a vector of rays passes a bunch it misses
-/// with one test. The table's spheres [0, ungrouped) stand alone; group g holds those up to end[g] from where g - 1
-/// ended.
-template <class Real>
-struct SphereGroups {
-    std::uint32_t count = 0;  ///< 0: no groups, all spheres stand alone
-    std::uint32_t ungrouped = 0;
-    const Real* cx = nullptr;
-    const Real* cy = nullptr;
-    const Real* cz = nullptr;
-    const Real* radius2 = nullptr;  ///< squared, with the margin group_may_hit relies on
-    const std::uint32_t* end = nullptr;
-};
-
 /// Columns of every table are readable up to a whole vector behind the last entry.
 template <class Real>
 struct SphereTable {
@@ -51,7 +37,6 @@ struct SphereTable {
     const Real* inverse_radius = nullptr;
     const Word* surface = nullptr;  ///< see surface_material_bits
     const Word* light = nullptr;    ///< index into the area lights where surface_emits is set, else 0
-    SphereGroups<Real> groups{};
     SphereTree<Real> tree{};
 };
 

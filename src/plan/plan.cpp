@@ -158,7 +158,6 @@ void Plan::plan_surfaces(const std::vector<std::uint32_t>& order) {
                 sphere_columns_[5].data(),
                 sphere_words_[0].data(),
                 sphere_words_[1].data(),
-                {},
                 {static_cast<std::uint32_t>(tree_.nodes.size()), tree_.nodes.data(), tree_.extent}};
     materials_ = {static_cast<std::uint32_t>(scene_.materials.size()),
                   material_columns_[0].data(),

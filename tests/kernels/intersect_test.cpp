@@ -70,35 +70,6 @@ TEST_P(IntersectTest, GroundSeenFromUpClose) {
     });
 }
 
-// Bunches behind bounding spheres: neighbours, with rays from everywhere, out of and into members, and past the rims.
-TEST_P(IntersectTest, GroupsLoseNoHit) {
-    Numbers random(14);
-    std::vector<Ball> balls{{glm::dvec3(0, -1000, 0), 998}};
-    for (int bunch = 0; bunch < 12; ++bunch) {
-        const glm::dvec3 middle = random.direction() * random.scale(1, 100);
-        for (int i = 0; i < 7; ++i) balls.push_back({middle + random.point(1), random.scale(0.01, 0.8)});
-    }
-    World world(balls);
-    world.group(1, 7);
-    for (const std::uint32_t count : awkward_counts)
-        expect_agrees(world, count, [&](std::uint32_t i, const RayView& rays) {
-            put_ray(rays, i, random.point(3), random.direction());
-        });
-    const auto aimed = [&](std::uint32_t i, const RayView& rays) {
-        const std::uint32_t from = random.below(world.spheres.count), to = random.below(world.spheres.count);
-        const glm::dvec3 n = random.direction();
-        const glm::dvec3 o = i % 3 == 0 ? random.direction() * random.scale(0.1, 1e4) : on_ball(world, from, n);
-        // Every other ray passes the rim of what it aims at by a hair, on this side or that.
-        const double miss = i % 2 == 0 ? random.uniform() : random.between(0.99, 1.01);
-        const glm::dvec3 axis = glm::normalize(world.centre(to) - o);
-        const glm::dvec3 aside = glm::normalize(glm::cross(axis, random.direction())) * (world.radius(to) * miss);
-        const glm::dvec3 d = glm::normalize(world.centre(to) + aside - o);
-        const std::uint32_t side = glm::dot(d, n) > 0 ? 0 : inside_bit;
-        put_ray(rays, i, o, d, i % 3 == 0 ? no_sphere : from | side);
-    };
-    expect_agrees(world, 20001, aimed, 0.25);
-}
-
 TEST_P(IntersectTest, OutwardRaysNeverMeetTheirSphereAgain) {
     const std::vector<Ball> balls = assorted_balls(20, 7);
     const World world(balls);

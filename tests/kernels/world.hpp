@@ -74,30 +74,6 @@ public:
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
-    /// Puts bounding spheres around every `bunch` spheres behind the first `ungrouped`, in the order they stand in.
-    void group(std::uint32_t ungrouped, std::uint32_t bunch) {
-        for (std::uint32_t first = ungrouped; first < spheres.count; first += bunch) {
-            const std::uint32_t last = std::min(first + bunch, spheres.count);
-            glm::dvec3 middle(0);
-            for (std::uint32_t k = first; k < last; ++k) middle += centre(k) / static_cast<double>(last - first);
-            push3(groups_, 0, middle);
-            const glm::dvec3 rounded{groups_[0].back(), groups_[1].back(), groups_[2].back()};
-            double reach = 0;
-            for (std::uint32_t k = first; k < last; ++k)
-                reach = std::max(reach, glm::distance(rounded, centre(k)) + radius(k));
-            reach *= 1 + kernels::group_margin;
-            groups_[3].push_back(static_cast<float>(reach * reach));
-            ends_.push_back(last);
-        }
-        spheres.groups = {static_cast<std::uint32_t>(ends_.size()),
-                          ungrouped,
-                          groups_[0].data(),
-                          groups_[1].data(),
-                          groups_[2].data(),
-                          groups_[3].data(),
-                          ends_.data()};
-    }
-
     kernels::SphereTable<float> spheres;
     kernels::MaterialTable<float> materials;
     kernels::EmissionTable<float> emission;
@@ -114,8 +90,6 @@ private:
 
     std::array<std::vector<float>, 17> columns_;  // centre radius, rho tau eta beta, emission, radius2 1/radius
     std::array<std::vector<std::uint32_t>, 2> words_;
-    std::array<std::vector<float>, 4> groups_;  // centre, squared radius
-    std::vector<std::uint32_t> ends_;
 };
 
 }  // namespace orrery::kernel_tests
