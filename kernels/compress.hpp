@@ -12,58 +12,68 @@
 namespace orrery::kernels {
 
 namespace detail {
-/// Entry m: byte i is the index of the i-th set bit of m (0 behind the last).
-consteval std::array<std::uint64_t, 256> make_compress_table() {
-    std::array<std::uint64_t, 256> table{};
-    for (unsigned m = 0; m < 256; ++m) {
+/// For every mask of `lanes` lanes of `words` 32-bit words each: byte i is the word that comes to place i (0 behind the
+/// last).
+template <unsigned lanes, unsigned words>
+consteval std::array<std::uint64_t, 1u << lanes> make_compress_table() {
+    std::array<std::uint64_t, 1u << lanes> table{};
+    for (unsigned m = 0; m < table.size(); ++m) {
         unsigned out = 0;
-        for (unsigned lane = 0; lane < 8; ++lane)
-            if (m >> lane & 1u) table[m] |= std::uint64_t{lane} << (8 * out++);
+        for (unsigned word = 0; word < lanes * words; ++word)
+            if (m >> (word / words) & 1u) table[m] |= std::uint64_t{word} << (8 * out++);
     }
     return table;
 }
-inline constexpr std::array<std::uint64_t, 256> compress_table = make_compress_table();
+template <unsigned lanes, unsigned words>
+inline constexpr std::array<std::uint64_t, 1u << lanes> compress_table = make_compress_table<lanes, words>();
 }  // namespace detail
 
 /// Stores the lanes of `value` whose bit is set in `chosen` at to[0], to[1], ... in lane order. Writes a whole vector:
 /// what lies between popcount(chosen) and the vector's width behind `to` is overwritten with anything.
 template <class V, class T>
 ORRERY_INLINE void compress_store(typename T::value_type* to, const T& value, std::uint32_t chosen) {
-    static_assert(sizeof(typename T::value_type) == 4);
+    using Element = typename T::value_type;
 #if defined(__AVX512F__)
-    if constexpr (V::count == 16) {
-        const auto k = static_cast<__mmask16>(chosen);
-        if constexpr (std::is_floating_point_v<typename T::value_type>) {
-            _mm512_storeu_ps(to, _mm512_maskz_compress_ps(k, value));
+    if constexpr (sizeof(T) == 64) {
+        if constexpr (std::is_same_v<Element, float>) {
+            _mm512_storeu_ps(to, _mm512_maskz_compress_ps(static_cast<__mmask16>(chosen), value));
+        } else if constexpr (std::is_same_v<Element, double>) {
+            _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(chosen), value));
+        } else if constexpr (sizeof(Element) == 4) {
+            _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), value));
         } else {
-            _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(k, value));
+            _mm512_storeu_si512(to, _mm512_maskz_compress_epi64(static_cast<__mmask8>(chosen), value));
         }
         return;
     }
 #endif
 #if defined(__AVX2__)
-    if constexpr (V::count == 8) {
-        const __m256i lanes =
-            _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(detail::compress_table[chosen])));
-        if constexpr (std::is_floating_point_v<typename T::value_type>) {
-            _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(value, lanes));
+    if constexpr (sizeof(T) == 32) {
+        constexpr auto& table = detail::compress_table<V::count, sizeof(Element) / 4>;
+        const __m256i words = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(table[chosen])));
+        if constexpr (std::is_same_v<Element, float>) {
+            _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(value, words));
+        } else if constexpr (std::is_same_v<Element, double>) {
+            _mm256_storeu_pd(to, _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(value), words)));
         } else {
-            _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(value, lanes));
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(value, words));
         }
         return;
     }
 #endif
-    if constexpr (V::count == 4) {
-        alignas(16) typename T::value_type lane[4];
+    if constexpr (sizeof(T) == 16) {
+        alignas(16) Element lane[T::size];
         value.store_aligned(lane);
-        // Four stores, each on top of the last one unless that was chosen: a loop over the chosen lanes took twice as
-        // long, its end being anybody's guess.
-        const std::uint32_t first = chosen & 1u, second = first + (chosen >> 1 & 1u),
-                            third = second + (chosen >> 2 & 1u);
+        // A store for every lane, each on top of the last one unless that was chosen: a loop over the chosen lanes took
+        // twice as long, its end being anybody's guess.
+        const std::uint32_t first = chosen & 1u;
         to[0] = lane[0];
         to[first] = lane[1];
-        to[second] = lane[2];
-        to[third] = lane[3];
+        if constexpr (T::size == 4) {
+            const std::uint32_t second = first + (chosen >> 1 & 1u), third = second + (chosen >> 2 & 1u);
+            to[second] = lane[2];
+            to[third] = lane[3];
+        }
     }
 }
 

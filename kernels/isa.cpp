@@ -49,10 +49,13 @@ Isa best_isa() {
 namespace kernels {
 
 extern const Stages<float> scalar_stages;
+extern const Stages<double> scalar_stages_double;
 #if ORRERY_X86
 extern const Stages<float> sse2_stages, avx2_stages, avx512_stages;
+extern const Stages<double> sse2_stages_double, avx2_stages_double, avx512_stages_double;
 #endif
 
+template <>
 const Stages<float>& stages_for(Isa isa) {
     switch (isa) {
 #if ORRERY_X86
@@ -65,6 +68,22 @@ const Stages<float>& stages_for(Isa isa) {
 #endif
         default:
             return scalar_stages;
+    }
+}
+
+template <>
+const Stages<double>& stages_for(Isa isa) {
+    switch (isa) {
+#if ORRERY_X86
+        case Isa::sse2:
+            return sse2_stages_double;
+        case Isa::avx2:
+            return avx2_stages_double;
+        case Isa::avx512:
+            return avx512_stages_double;
+#endif
+        default:
+            return scalar_stages_double;
     }
 }
 

@@ -31,21 +31,29 @@ ORRERY_INLINE T gather(const Element* table, const U& index) {
     if constexpr (std::is_arithmetic_v<T>) {
         return table[index];
 #if defined(__AVX512F__)
-    } else if constexpr (T::size == 16 && sizeof(Element) == 4) {
+    } else if constexpr (sizeof(T) == 64) {
         const __m512i i = index;
-        if constexpr (std::is_floating_point_v<Element>) {
+        if constexpr (std::is_same_v<Element, float>) {
             return T(_mm512_i32gather_ps(i, table, 4));
-        } else {
+        } else if constexpr (std::is_same_v<Element, double>) {
+            return T(_mm512_i64gather_pd(i, table, 8));
+        } else if constexpr (sizeof(Element) == 4) {
             return T(_mm512_i32gather_epi32(i, table, 4));
+        } else {
+            return T(_mm512_i64gather_epi64(i, table, 8));
         }
 #endif
 #if defined(__AVX2__)
-    } else if constexpr (T::size == 8 && sizeof(Element) == 4) {
+    } else if constexpr (sizeof(T) == 32) {
         const __m256i i = index;
-        if constexpr (std::is_floating_point_v<Element>) {
+        if constexpr (std::is_same_v<Element, float>) {
             return T(_mm256_i32gather_ps(table, i, 4));
-        } else {
+        } else if constexpr (std::is_same_v<Element, double>) {
+            return T(_mm256_i64gather_pd(table, i, 8));
+        } else if constexpr (sizeof(Element) == 4) {
             return T(_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), i, 4));
+        } else {
+            return T(_mm256_i64gather_epi64(reinterpret_cast<const long long*>(table), i, 8));
         }
 #endif
     } else {
@@ -57,36 +65,36 @@ ORRERY_INLINE T gather(const Element* table, const U& index) {
     }
 }
 
-/// As gather, for a table of `size` entries that is readable up to `widest` ones: a table no longer than a vector is
-/// permuted in register, one operation where a gather is a load per lane.
+/// As gather, for a table of `size` entries that is readable up to `widest` ones: a table no longer than a vector (of
+/// AVX-512's doubles: two) is permuted in register, one operation where a gather is a load per lane.
 template <class T, class Element, class U>
 ORRERY_INLINE T lookup(const Element* table, const U& index, std::uint32_t size) {
     static_cast<void>(size);
 #if defined(__AVX512F__)
-    if constexpr (!std::is_arithmetic_v<T> && sizeof(Element) == 4) {
-        if constexpr (T::size == 16) {
-            if (size <= 16) {
-                const __m512i i = index;
-                if constexpr (std::is_floating_point_v<Element>) {
-                    return T(_mm512_permutexvar_ps(i, _mm512_loadu_ps(table)));
-                } else {
-                    return T(_mm512_permutexvar_epi32(i, _mm512_loadu_si512(table)));
-                }
+    if constexpr (!std::is_arithmetic_v<T> && sizeof(T) == 64) {
+        if (size <= 16) {
+            const __m512i i = index;
+            if constexpr (std::is_same_v<Element, float>) {
+                return T(_mm512_permutexvar_ps(i, _mm512_loadu_ps(table)));
+            } else if constexpr (std::is_same_v<Element, double>) {
+                return T(_mm512_permutex2var_pd(_mm512_loadu_pd(table), i, _mm512_loadu_pd(table + 8)));
+            } else if constexpr (sizeof(Element) == 4) {
+                return T(_mm512_permutexvar_epi32(i, _mm512_loadu_si512(table)));
+            } else {
+                return T(_mm512_permutex2var_epi64(_mm512_loadu_si512(table), i, _mm512_loadu_si512(table + 8)));
             }
         }
     }
 #endif
 #if defined(__AVX2__)
-    if constexpr (!std::is_arithmetic_v<T> && sizeof(Element) == 4) {
-        if constexpr (T::size == 8) {
-            if (size <= 8) {
-                const __m256i i = index;
-                if constexpr (std::is_floating_point_v<Element>) {
-                    return T(_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), i));
-                } else {
-                    const auto* words = reinterpret_cast<const __m256i*>(table);
-                    return T(_mm256_permutevar8x32_epi32(_mm256_loadu_si256(words), i));
-                }
+    if constexpr (!std::is_arithmetic_v<T> && sizeof(T) == 32 && sizeof(Element) == 4) {
+        if (size <= 8) {
+            const __m256i i = index;
+            if constexpr (std::is_floating_point_v<Element>) {
+                return T(_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), i));
+            } else {
+                const auto* words = reinterpret_cast<const __m256i*>(table);
+                return T(_mm256_permutevar8x32_epi32(_mm256_loadu_si256(words), i));
             }
         }
     }

@@ -30,7 +30,7 @@ struct RandomWords {
     U x, y, z, w;
 };
 
-/// The four words of one counter.
+/// The four words of one counter, in the low halves.
 template <class U>
 ORRERY_INLINE RandomWords<U> pcg4d(U x, U y, U z, U w) {
     const U a(1664525u), c(1013904223u);
@@ -42,10 +42,10 @@ ORRERY_INLINE RandomWords<U> pcg4d(U x, U y, U z, U w) {
     y = y + multiply_words(z, x);
     z = z + multiply_words(x, y);
     w = w + multiply_words(y, z);
-    x = x ^ (x >> 16);
-    y = y ^ (y >> 16);
-    z = z ^ (z >> 16);
-    w = w ^ (w >> 16);
+    x = x ^ (low_half(x) >> 16);
+    y = y ^ (low_half(y) >> 16);
+    z = z ^ (low_half(z) >> 16);
+    w = w ^ (low_half(w) >> 16);
     x = x + multiply_words(y, w);
     y = y + multiply_words(z, x);
     z = z + multiply_words(x, y);

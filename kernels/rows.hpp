@@ -52,7 +52,7 @@ ORRERY_INLINE void save_rows(float* out, const Vec3<typename V::F>& v) {
 /// valid row. (Gathering, adding and scattering a column at a time takes the processor longer than these single rows,
 /// and needs the rows of a vector to differ.)
 template <class V>
-ORRERY_INLINE void add_to_rows(float* rows, const typename V::U& row, const Vec3<typename V::F>& value) {
+ORRERY_INLINE void add_to_rows(typename V::Real* rows, const typename V::U& row, const Vec3<typename V::F>& value) {
     if constexpr (V::count == 1) {
         rows[4 * row] += value.x;
         rows[4 * row + 1] += value.y;
@@ -62,6 +62,15 @@ ORRERY_INLINE void add_to_rows(float* rows, const typename V::U& row, const Vec3
         using Rgb = Vec3<typename Half::F>;
         add_to_rows<Half>(rows, row.low, Rgb{value.x.low, value.y.low, value.z.low});
         add_to_rows<Half>(rows, row.high, Rgb{value.x.high, value.y.high, value.z.high});
+    } else if constexpr (sizeof(typename V::Real) == 8) {
+        alignas(64) std::uint64_t at[V::count];
+        alignas(64) double x[V::count], y[V::count], z[V::count];
+        row.store_aligned(at);
+        value.x.store_aligned(x), value.y.store_aligned(y), value.z.store_aligned(z);
+        for (std::uint32_t lane = 0; lane < V::count; ++lane) {
+            double* const sum = rows + std::size_t{4} * at[lane];
+            sum[0] += x[lane], sum[1] += y[lane], sum[2] += z[lane];
+        }
     } else {
         alignas(64) std::uint32_t at[V::count];
         alignas(64) float terms[4 * V::count];

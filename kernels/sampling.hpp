@@ -12,6 +12,32 @@ struct SinCos {
     F sin, cos;
 };
 
+namespace detail {
+/// Terms of the series below: on [-pi/4, pi/4] what is left out is less than half an ulp of the result.
+template <class Real>
+inline constexpr int taylor_terms = sizeof(Real) == 4 ? 5 : 9;
+
+/// (-1)^k / (2 k + first)!, the coefficient of a^2k in sin(a) / a (first 1) and cos(a) (first 0).
+template <class Real>
+consteval Real taylor_coefficient(int k, int first) {
+    double factorial = 1;
+    for (int n = 2; n <= 2 * k + first; ++n) factorial *= n;
+    return static_cast<Real>(k % 2 == 0 ? 1 : -1) / static_cast<Real>(factorial);
+}
+
+/// The series from its term k on, by Horner's rule.
+template <class V, int first, int k = 0>
+ORRERY_INLINE typename V::F taylor_series(const typename V::F& a2) {
+    using Real = typename V::Real;
+    const typename V::F coefficient(taylor_coefficient<Real>(k, first));
+    if constexpr (k + 1 == taylor_terms<Real>) {
+        return coefficient;
+    } else {
+        return mul_add(a2, taylor_series<V, first, k + 1>(a2), coefficient);
+    }
+}
+}  // namespace detail
+
 /// Sine and cosine of u turns, u in [0, 1), to 2 ulp of 1. Our own series, so that every instruction set rounds alike:
 /// the quarter turn nearest is taken off exactly, what is left is at most pi/4 and a short Taylor series does.
 template <class V>
@@ -22,12 +48,8 @@ ORRERY_INLINE SinCos<typename V::F> sincos_turns(const typename V::F& u) {
     const U quarter = truncate_to_word(quarters + F(0.5f));
     const F a = (quarters - to_number(quarter)) * F(static_cast<typename V::Real>(std::numbers::pi / 2));
     const F a2 = a * a;
-    const F s = a * mul_add(a2,
-                            mul_add(a2, mul_add(a2, mul_add(a2, F(1.0f / 362880), F(-1.0f / 5040)), F(1.0f / 120)),
-                                    F(-1.0f / 6)),
-                            F(1));
-    const F c = mul_add(
-        a2, mul_add(a2, mul_add(a2, mul_add(a2, F(1.0f / 40320), F(-1.0f / 720)), F(1.0f / 24)), F(-0.5f)), F(1));
+    const F s = a * detail::taylor_series<V, 1>(a2);
+    const F c = detail::taylor_series<V, 0>(a2);
     const auto swapped = words_equal(quarter & U(1u), U(1u));
     return {flip_sign(choose(swapped, c, s), quarter << 30), flip_sign(choose(swapped, s, c), (quarter + U(1u)) << 30)};
 }
@@ -55,8 +77,8 @@ ORRERY_INLINE DirectionSample<typename V::F> sample_cosine(const Vec3<typename V
                                                            const typename V::F& v) {
     using F = typename V::F;
     const Vec3<F> sum = n + sample_unit_sphere<V>(u, v);
-    // 2^-40 of the square's range: only a sum of exactly zero is touched, which no pair of 24-bit numbers makes likely.
-    const F length = root(max(dot(sum, sum), F(0x1p-80f)));
+    // Far below the square of an ulp: only a sum of exactly zero is touched, which no pair of numbers makes likely.
+    const F length = root(max(dot(sum, sum), F(sizeof(typename V::Real) == 4 ? 0x1p-80f : 0x1p-126f)));
     return {sum * (F(1) / length), F(0.5f) * length};
 }
 

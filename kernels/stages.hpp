@@ -61,7 +61,12 @@ struct Stages {
                         WordOf<Real>* occluded);
 };
 
-/// The stages compiled for `isa`. Throws nothing; the caller has asked isa_supported first.
+/// The stages compiled for `isa`, in float or double. Throws nothing; the caller has asked isa_supported first.
+template <class Real = float>
+const Stages<Real>& stages_for(Isa isa);
+template <>
 const Stages<float>& stages_for(Isa isa);
+template <>
+const Stages<double>& stages_for(Isa isa);
 
 }  // namespace orrery::kernels

@@ -10,7 +10,8 @@ namespace {
 
 class CompressTest : public KernelTest {
 protected:
-    const LaneProbe& probe = lane_probe(GetParam());
+    const LaneProbe<float>& probe = lane_probe<float>(GetParam());
+    const LaneProbe<double>& doubles = lane_probe<double>(GetParam());
 };
 
 template <class T, class Compress>
@@ -37,9 +38,11 @@ void expect_every_mask_compresses(std::uint32_t lanes, Compress&& compress) {
 
 TEST_P(CompressTest, NumbersUnderEveryMask) {
     expect_every_mask_compresses<float>(probe.lanes, probe.compress_numbers);
+    expect_every_mask_compresses<double>(doubles.lanes, doubles.compress_numbers);
 }
 TEST_P(CompressTest, WordsUnderEveryMask) {
     expect_every_mask_compresses<std::uint32_t>(probe.lanes, probe.compress_words);
+    expect_every_mask_compresses<std::uint64_t>(doubles.lanes, doubles.compress_words);
 }
 
 INSTANTIATE_TEST_SUITE_P(Isas, CompressTest, ::testing::ValuesIn(supported_isas()), name_of_isa);

@@ -14,7 +14,8 @@ std::uint32_t lanes_of(Isa isa) {
 }
 
 /// The addresses in a table, in order.
-std::vector<const void*> stages_in(const kernels::Stages<float>& s) {
+template <class Real>
+std::vector<const void*> stages_in(const kernels::Stages<Real>& s) {
     std::vector<const void*> all;
     const auto add = [&](auto pointer) { all.push_back(reinterpret_cast<const void*>(pointer)); };
     add(s.generate_pinhole), add(s.generate_lens), add(s.intersect), add(s.intersect_tree), add(s.emission),
@@ -33,6 +34,9 @@ class DispatchTest : public KernelTest {};
 TEST_P(DispatchTest, TableSaysWhatWasAskedFor) {
     EXPECT_EQ(stages.isa, GetParam());
     EXPECT_EQ(stages.lanes, lanes_of(GetParam()));
+    const auto& in_double = kernels::stages_for<double>(GetParam());
+    EXPECT_EQ(in_double.isa, GetParam());
+    EXPECT_EQ(in_double.lanes, std::max(1u, lanes_of(GetParam()) / 2));
 }
 
 TEST_P(DispatchTest, EveryStageIsThereAndIsNoOtherInstructionSets) {
@@ -40,6 +44,8 @@ TEST_P(DispatchTest, EveryStageIsThereAndIsNoOtherInstructionSets) {
     for (const Isa other : supported_isas())
         if (other != GetParam())
             for (const void* stage : stages_in(kernels::stages_for(other))) others.insert(stage);
+    for (const Isa any : supported_isas())
+        for (const void* stage : stages_in(kernels::stages_for<double>(any))) EXPECT_TRUE(others.insert(stage).second);
     for (const void* stage : stages_in(stages)) {
         EXPECT_NE(stage, nullptr);
         EXPECT_FALSE(others.contains(stage));

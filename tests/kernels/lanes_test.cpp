@@ -20,7 +20,7 @@ constexpr std::uint32_t n = 4096;  // a multiple of every lane count
 
 class LanesTest : public KernelTest {
 protected:
-    const LaneProbe& probe = lane_probe(GetParam());
+    const LaneProbe<float>& probe = lane_probe<float>(GetParam());
 };
 
 std::uint32_t bits_of(float x) { return std::bit_cast<std::uint32_t>(x); }

@@ -16,7 +16,7 @@ using Blocks = std::array<std::vector<float>, 4>;
 
 class RandomTest : public KernelTest {
 protected:
-    const LaneProbe& probe = lane_probe(GetParam());
+    const LaneProbe<float>& probe = lane_probe<float>(GetParam());
 
     Blocks draw(const RandomKey& key, const Words& pixel, const Words& sample, const Words& vertex) const {
         Blocks out;

@@ -12,101 +12,105 @@ template <class V>
 struct Probe {
     using F = typename V::F;
     using U = typename V::U;
-    using Word = std::uint32_t;
+    using Real = typename V::Real;
+    using Word = typename V::Word;
+    using Count = std::uint32_t;
 
-    static F number(const float* from) { return kernels::load<F>(from); }
+    static F number(const Real* from) { return kernels::load<F>(from); }
     static U word(const Word* from) { return kernels::load<U>(from); }
 
-    static void mul_add(const float* a, const float* b, const float* c, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count)
+    static void mul_add(const Real* a, const Real* b, const Real* c, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count)
             kernels::save(out + i, kernels::mul_add(number(a + i), number(b + i), number(c + i)));
     }
-    static void neg_mul_add(const float* a, const float* b, const float* c, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count)
+    static void neg_mul_add(const Real* a, const Real* b, const Real* c, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count)
             kernels::save(out + i, kernels::neg_mul_add(number(a + i), number(b + i), number(c + i)));
     }
-    static void choose_less(const float* a, const float* b, const float* c, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count)
+    static void choose_less(const Real* a, const Real* b, const Real* c, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count)
             kernels::save(out + i, kernels::choose(number(a + i) < number(b + i), number(c + i), number(a + i)));
     }
-    static void minimum(const float* a, const float* b, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::min(number(a + i), number(b + i)));
+    static void minimum(const Real* a, const Real* b, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count) kernels::save(out + i, kernels::min(number(a + i), number(b + i)));
     }
-    static void maximum(const float* a, const float* b, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::max(number(a + i), number(b + i)));
+    static void maximum(const Real* a, const Real* b, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count) kernels::save(out + i, kernels::max(number(a + i), number(b + i)));
     }
-    static void divide(const float* a, const float* b, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, F(number(a + i) / number(b + i)));
+    static void divide(const Real* a, const Real* b, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count) kernels::save(out + i, F(number(a + i) / number(b + i)));
     }
-    static void root(const float* a, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::root(number(a + i)));
+    static void root(const Real* a, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count) kernels::save(out + i, kernels::root(number(a + i)));
     }
-    static void magnitude(const float* a, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::magnitude(number(a + i)));
+    static void magnitude(const Real* a, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count) kernels::save(out + i, kernels::magnitude(number(a + i)));
     }
-    static void sincos(const float* turns, float* sin, float* cos, Word n) {
-        for (Word i = 0; i < n; i += V::count) {
+    static void sincos(const Real* turns, Real* sin, Real* cos, Count n) {
+        for (Count i = 0; i < n; i += V::count) {
             const auto at = kernels::sincos_turns<V>(number(turns + i));
             kernels::save(sin + i, at.sin);
             kernels::save(cos + i, at.cos);
         }
     }
-    static void flip_sign(const float* a, const Word* sign, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count)
+    static void flip_sign(const Real* a, const Word* sign, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count)
             kernels::save(out + i, kernels::flip_sign(number(a + i), word(sign + i)));
     }
-    static void multiply_words(const Word* a, const Word* b, Word* out, Word n) {
-        for (Word i = 0; i < n; i += V::count)
+    static void multiply_words(const Word* a, const Word* b, Word* out, Count n) {
+        for (Count i = 0; i < n; i += V::count)
             kernels::save(out + i, kernels::multiply_words(word(a + i), word(b + i)));
     }
-    static void words_equal(const Word* a, const Word* b, Word* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) {
-            const Word equal = kernels::bits(kernels::words_equal(word(a + i), word(b + i)));
-            for (Word lane = 0; lane < V::count; ++lane) out[i + lane] = equal >> lane & 1u;
+    static void words_equal(const Word* a, const Word* b, Word* out, Count n) {
+        for (Count i = 0; i < n; i += V::count) {
+            const Count equal = kernels::bits(kernels::words_equal(word(a + i), word(b + i)));
+            for (Count lane = 0; lane < V::count; ++lane) out[i + lane] = equal >> lane & 1u;
         }
     }
-    static void choose_words(const float* a, const float* b, const Word* yes, const Word* no, Word* out, Word n) {
-        for (Word i = 0; i < n; i += V::count)
+    static void choose_words(const Real* a, const Real* b, const Word* yes, const Word* no, Word* out, Count n) {
+        for (Count i = 0; i < n; i += V::count)
             kernels::save(out + i, kernels::choose(number(a + i) < number(b + i), word(yes + i), word(no + i)));
     }
-    static void unit_interval(const Word* words, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::unit_interval(word(words + i)));
+    static void unit_interval(const Word* words, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count) kernels::save(out + i, kernels::unit_interval(word(words + i)));
     }
-    static void truncate(const float* numbers, Word* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::truncate_to_word(number(numbers + i)));
+    static void truncate(const Real* numbers, Word* out, Count n) {
+        for (Count i = 0; i < n; i += V::count) kernels::save(out + i, kernels::truncate_to_word(number(numbers + i)));
     }
-    static void to_number(const Word* words, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::to_number(word(words + i)));
+    static void to_number(const Word* words, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count) kernels::save(out + i, kernels::to_number(word(words + i)));
     }
 
-    static Word first_lanes(Word live) { return kernels::bits(kernels::first_lanes<V>(live)); }
-    static void any_all(const float* a, const float* b, bool& any, bool& all) {
+    static Count first_lanes(Count live) { return kernels::bits(kernels::first_lanes<V>(live)); }
+    static void any_all(const Real* a, const Real* b, bool& any, bool& all) {
         any = any_of(number(a) < number(b));
         all = all_of(number(a) < number(b));
     }
-    static void load_store(const float* from, float* to) { kernels::save(to, number(from)); }
-    static void compress_numbers(const float* from, Word chosen, float* to) {
+    static void load_store(const Real* from, Real* to) { kernels::save(to, number(from)); }
+    static void compress_numbers(const Real* from, Count chosen, Real* to) {
         kernels::compress_store<V>(to, number(from), chosen);
     }
-    static void compress_words(const Word* from, Word chosen, Word* to) {
+    static void compress_words(const Word* from, Count chosen, Word* to) {
         kernels::compress_store<V>(to, word(from), chosen);
     }
 
-    static void gather(const float* table, const Word* index, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::gather<F>(table, word(index + i)));
+    static void gather(const Real* table, const Word* index, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count) kernels::save(out + i, kernels::gather<F>(table, word(index + i)));
     }
-    static void gather_words(const Word* table, const Word* index, Word* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::gather<U>(table, word(index + i)));
+    static void gather_words(const Word* table, const Word* index, Word* out, Count n) {
+        for (Count i = 0; i < n; i += V::count) kernels::save(out + i, kernels::gather<U>(table, word(index + i)));
     }
-    static void lookup(const float* table, Word size, const Word* index, float* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::lookup<F>(table, word(index + i), size));
+    static void lookup(const Real* table, Count size, const Word* index, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count)
+            kernels::save(out + i, kernels::lookup<F>(table, word(index + i), size));
     }
-    static void lookup_words(const Word* table, Word size, const Word* index, Word* out, Word n) {
-        for (Word i = 0; i < n; i += V::count) kernels::save(out + i, kernels::lookup<U>(table, word(index + i), size));
+    static void lookup_words(const Word* table, Count size, const Word* index, Word* out, Count n) {
+        for (Count i = 0; i < n; i += V::count)
+            kernels::save(out + i, kernels::lookup<U>(table, word(index + i), size));
     }
 
-    static void pcg4d(const Word* const counters[4], Word* const out[4], Word n) {
-        for (Word i = 0; i < n; i += V::count) {
+    static void pcg4d(const Word* const counters[4], Word* const out[4], Count n) {
+        for (Count i = 0; i < n; i += V::count) {
             const auto r = kernels::pcg4d<U>(word(counters[0] + i), word(counters[1] + i), word(counters[2] + i),
                                              word(counters[3] + i));
             kernels::save(out[0] + i, r.x);
@@ -116,8 +120,8 @@ struct Probe {
         }
     }
     static void random_block(const kernels::RandomKey& key, const Word* pixel, const Word* sample, const Word* vertex,
-                             float* const out[4], Word n) {
-        for (Word i = 0; i < n; i += V::count) {
+                             Real* const out[4], Count n) {
+        for (Count i = 0; i < n; i += V::count) {
             const auto r = kernels::random_block<V>(key, word(pixel + i), word(sample + i), word(vertex + i));
             kernels::save(out[0] + i, r.x);
             kernels::save(out[1] + i, r.y);
@@ -139,9 +143,9 @@ private:
 };
 
 template <class V>
-constexpr LaneProbe make_probe() {
+constexpr LaneProbe<typename V::Real> make_probe() {
     using P = Probe<V>;
-    LaneProbe p{};
+    LaneProbe<typename V::Real> p{};
     p.lanes = V::count;
     p.mul_add = P::mul_add, p.neg_mul_add = P::neg_mul_add, p.choose_less = P::choose_less;
     p.minimum = P::minimum, p.maximum = P::maximum, p.divide = P::divide;

@@ -9,49 +9,54 @@
 
 namespace orrery::kernel_tests {
 
+template <class Real>
 struct LaneProbe {
+    using Word = kernels::WordOf<Real>;
     std::uint32_t lanes;
 
-    using Numbers3 = void (*)(const float* a, const float* b, const float* c, float* out, std::uint32_t n);
+    using Numbers3 = void (*)(const Real* a, const Real* b, const Real* c, Real* out, std::uint32_t n);
     Numbers3 mul_add, neg_mul_add;
     Numbers3 choose_less;  ///< a < b ? c : a
-    using Numbers2 = void (*)(const float* a, const float* b, float* out, std::uint32_t n);
+    using Numbers2 = void (*)(const Real* a, const Real* b, Real* out, std::uint32_t n);
     Numbers2 minimum, maximum, divide;
-    using Numbers1 = void (*)(const float* a, float* out, std::uint32_t n);
+    using Numbers1 = void (*)(const Real* a, Real* out, std::uint32_t n);
     Numbers1 root, magnitude;
-    void (*sincos)(const float* turns, float* sin, float* cos, std::uint32_t n);
-    void (*flip_sign)(const float* a, const std::uint32_t* sign, float* out, std::uint32_t n);
+    void (*sincos)(const Real* turns, Real* sin, Real* cos, std::uint32_t n);
+    void (*flip_sign)(const Real* a, const Word* sign, Real* out, std::uint32_t n);
 
-    using Words2 = void (*)(const std::uint32_t* a, const std::uint32_t* b, std::uint32_t* out, std::uint32_t n);
+    using Words2 = void (*)(const Word* a, const Word* b, Word* out, std::uint32_t n);
     Words2 multiply_words, words_equal;
-    void (*choose_words)(const float* a, const float* b, const std::uint32_t* yes, const std::uint32_t* no,
-                         std::uint32_t* out,
+    void (*choose_words)(const Real* a, const Real* b, const Word* yes, const Word* no, Word* out,
                          std::uint32_t n);  ///< a < b ? yes : no
-    void (*unit_interval)(const std::uint32_t* words, float* out, std::uint32_t n);
-    void (*truncate)(const float* numbers, std::uint32_t* out, std::uint32_t n);
-    void (*to_number)(const std::uint32_t* words, float* out, std::uint32_t n);
+    void (*unit_interval)(const Word* words, Real* out, std::uint32_t n);
+    void (*truncate)(const Real* numbers, Word* out, std::uint32_t n);
+    void (*to_number)(const Word* words, Real* out, std::uint32_t n);
 
     // One vector each.
     std::uint32_t (*first_lanes)(std::uint32_t live);  ///< as bits
-    void (*any_all)(const float* a, const float* b, bool& any,
+    void (*any_all)(const Real* a, const Real* b, bool& any,
                     bool& all);  ///< of a < b
-    void (*load_store)(const float* from, float* to);
-    void (*compress_numbers)(const float* from, std::uint32_t chosen, float* to);
-    void (*compress_words)(const std::uint32_t* from, std::uint32_t chosen, std::uint32_t* to);
+    void (*load_store)(const Real* from, Real* to);
+    void (*compress_numbers)(const Real* from, std::uint32_t chosen, Real* to);
+    void (*compress_words)(const Word* from, std::uint32_t chosen, Word* to);
 
-    void (*gather)(const float* table, const std::uint32_t* index, float* out, std::uint32_t n);
-    void (*gather_words)(const std::uint32_t* table, const std::uint32_t* index, std::uint32_t* out, std::uint32_t n);
-    void (*lookup)(const float* table, std::uint32_t size, const std::uint32_t* index, float* out, std::uint32_t n);
-    void (*lookup_words)(const std::uint32_t* table, std::uint32_t size, const std::uint32_t* index, std::uint32_t* out,
-                         std::uint32_t n);
+    void (*gather)(const Real* table, const Word* index, Real* out, std::uint32_t n);
+    void (*gather_words)(const Word* table, const Word* index, Word* out, std::uint32_t n);
+    void (*lookup)(const Real* table, std::uint32_t size, const Word* index, Real* out, std::uint32_t n);
+    void (*lookup_words)(const Word* table, std::uint32_t size, const Word* index, Word* out, std::uint32_t n);
 
     /// Four words per item, in four columns.
-    void (*pcg4d)(const std::uint32_t* const counters[4], std::uint32_t* const out[4], std::uint32_t n);
-    void (*random_block)(const kernels::RandomKey& key, const std::uint32_t* pixel, const std::uint32_t* sample,
-                         const std::uint32_t* vertex, float* const out[4], std::uint32_t n);
+    void (*pcg4d)(const Word* const counters[4], Word* const out[4], std::uint32_t n);
+    void (*random_block)(const kernels::RandomKey& key, const Word* pixel, const Word* sample, const Word* vertex,
+                         Real* const out[4], std::uint32_t n);
 };
 
 /// For a supported `isa`.
-const LaneProbe& lane_probe(Isa isa);
+template <class Real>
+const LaneProbe<Real>& lane_probe(Isa isa);
+template <>
+const LaneProbe<float>& lane_probe(Isa isa);
+template <>
+const LaneProbe<double>& lane_probe(Isa isa);
 
 }  // namespace orrery::kernel_tests

@@ -1,6 +1,8 @@
 #include "probe/instantiate.hpp"
 
 namespace orrery::kernel_tests {
-extern const LaneProbe scalar_probe;
-constinit const LaneProbe scalar_probe = make_probe<kernels::ScalarLanes<float>>();
+extern const LaneProbe<float> scalar_probe;
+extern const LaneProbe<double> scalar_probe_double;
+constinit const LaneProbe<float> scalar_probe = make_probe<kernels::ScalarLanes<float>>();
+constinit const LaneProbe<double> scalar_probe_double = make_probe<kernels::ScalarLanes<double>>();
 }  // namespace orrery::kernel_tests
