@@ -76,15 +76,16 @@ void generate_noted(const CameraTable<float>& camera, const Slots& slots, std::u
     (lens ? session->forward.generate_lens : session->forward.generate_pinhole)(camera, slots, count, seed, rays);
 }
 
-template <bool tree>
+/// `stage` is the table's entry that was called, so that it is the one called again.
+template <Table::Intersect Table::*stage>
 void intersect_noted(const Spheres& spheres, const Rays& rays, std::uint32_t count, const Hits& hits) {
     ++session->passes;
     note("intersect", count, 2 * vector3 + word + 2 * word, ray_part, count, hit_part,
          [spheres, count](const Table& s, WaveStorage& w) {
-             (tree ? s.intersect_tree : s.intersect)(spheres, w.rays, count, w.hits);
+             (s.*stage)(spheres, w.rays, count, w.hits);
              return whole(count);
          });
-    (tree ? session->forward.intersect_tree : session->forward.intersect)(spheres, rays, count, hits);
+    (session->forward.*stage)(spheres, rays, count, hits);
 }
 
 void emission_noted(const Spheres& spheres, const EmissionTable<float>& lights, LightStrategy strategy,
@@ -153,17 +154,17 @@ std::uint32_t connect_noted(const ConnectContext<float>& context, const Light& l
     return of(session->forward)(context, light, run, rays, lobes, queue);
 }
 
-template <bool tree>
+template <Table::Shadow Table::*stage>
 void shadow_noted(const Spheres& spheres, const Shadows& queue, std::uint32_t count, std::uint32_t skip,
                   const Slots& slots) {
     note(
         "shadow", count, bytes_of(queue) + 2 * vector3, radiance_part | shadow_part, count, radiance_part,
         [spheres, count, skip](const Table& s, WaveStorage& w) {
-            (tree ? s.shadow_tree : s.shadow)(spheres, w.shadows, count, skip, w.slots);
+            (s.*stage)(spheres, w.shadows, count, skip, w.slots);
             return whole(count);
         },
         skip);
-    (tree ? session->forward.shadow_tree : session->forward.shadow)(spheres, queue, count, skip, slots);
+    (session->forward.*stage)(spheres, queue, count, skip, slots);
 }
 
 std::uint32_t roulette_noted(const Slots& slots, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs& runs,
@@ -180,8 +181,9 @@ Table noting(const Table& forward) {
     Table table = forward;
     table.generate_pinhole = generate_noted<false>;
     table.generate_lens = generate_noted<true>;
-    table.intersect = intersect_noted<false>;
-    table.intersect_tree = intersect_noted<true>;
+    table.intersect = intersect_noted<&Table::intersect>;
+    table.intersect_coherent = intersect_noted<&Table::intersect_coherent>;
+    table.intersect_tree = intersect_noted<&Table::intersect_tree>;
     table.emission = emission_noted;
     table.sort_by_scattering = sort_noted;
     [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
@@ -194,8 +196,9 @@ Table noting(const Table& forward) {
     table.connect_area[0][1] = connect_noted<area_entry<0, 1>, kernels::AreaLight<float>>;
     table.connect_area[1][0] = connect_noted<area_entry<1, 0>, kernels::AreaLight<float>>;
     table.connect_area[1][1] = connect_noted<area_entry<1, 1>, kernels::AreaLight<float>>;
-    table.shadow = shadow_noted<false>;
-    table.shadow_tree = shadow_noted<true>;
+    table.shadow = shadow_noted<&Table::shadow>;
+    table.shadow_coherent = shadow_noted<&Table::shadow_coherent>;
+    table.shadow_tree = shadow_noted<&Table::shadow_tree>;
     table.roulette = roulette_noted;
     return table;
 }

@@ -26,6 +26,7 @@ constexpr Stages<typename V::Real> make_stages(Isa isa) {
     s.generate_pinhole = generate<W, false>;
     s.generate_lens = generate<W, true>;
     s.intersect = intersect<S>;
+    s.intersect_coherent = intersect_coherent<S>;
     s.intersect_tree = intersect_tree<V>;
     s.emission = emission<W>;
     s.sort_by_scattering = sort_by_scattering<V>;
@@ -41,6 +42,7 @@ constexpr Stages<typename V::Real> make_stages(Isa isa) {
     s.connect_area[1][0] = connect_area<W, Response::diffuse, cone>;
     s.connect_area[1][1] = connect_area<W, Response::glossy, cone>;
     s.shadow = shadow<S>;
+    s.shadow_coherent = shadow_coherent<S>;
     s.shadow_tree = shadow_tree<V>;
     s.roulette = roulette<W>;
     s.expire = expire<V>;

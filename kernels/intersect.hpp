@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "kernels/candidates.hpp"
 #include "kernels/queues.hpp"
 #include "kernels/sphere.hpp"
 
@@ -27,10 +28,10 @@ ORRERY_INLINE void keep_closer(Closest<V>& best, const typename V::F& num, const
 
 /// Closest hit with t_min < t < t_max, t_max >= 0. `left` is the sphere each ray leaves (inside_bit: inward), no_sphere
 /// for none; it is meaningful only for segments that begin on it, so Start is FromOrigin wherever left names a sphere.
-template <class V, class Start>
-ORRERY_INLINE Closest<V> closest_hit(const SphereTable<typename V::Real>& spheres, const Vec3<typename V::F>& o,
-                                     const Vec3<typename V::F>& d, const typename V::U& left, const Start& t_min,
-                                     const typename V::F& t_max) {
+template <class V, class Among, class Start>
+ORRERY_INLINE Closest<V> closest_hit(const SphereTable<typename V::Real>& spheres, const Among& among,
+                                     const Vec3<typename V::F>& o, const Vec3<typename V::F>& d,
+                                     const typename V::U& left, const Start& t_min, const typename V::F& t_max) {
     using F = typename V::F;
     using U = typename V::U;
     const F zero(0);
@@ -45,7 +46,7 @@ ORRERY_INLINE Closest<V> closest_hit(const SphereTable<typename V::Real>& sphere
         best.num = choose(closer, t, best.num);
         best.id = choose(closer, left, best.id);
     }
-    for (std::uint32_t k = 0; k < spheres.count; ++k) {
+    among.each([&](std::uint32_t k) ORRERY_INLINE_LAMBDA {
         const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
         const F s = root(line.disc);
         const auto not_left = !words_equal(left_id, U(k));
@@ -59,7 +60,8 @@ ORRERY_INLINE Closest<V> closest_hit(const SphereTable<typename V::Real>& sphere
             const auto first = first_root<V>(line, s, t_min, not_left && line.disc > zero);
             keep_closer<V>(best, first.num, first.den, first.exists, choose(first.inside, U(k | inside_bit), U(k)));
         }
-    }
+        return false;
+    });
     return best;
 }
 
@@ -67,10 +69,11 @@ ORRERY_INLINE Closest<V> closest_hit(const SphereTable<typename V::Real>& sphere
 ///
 /// From the origin the near root c / (b + s) lies before t_max exactly when g = c / t_max - b is negative or g^2 <
 /// disc: no square root and no division per sphere. The far root counts from within a sphere only, which is rare.
-template <class V, class Start>
-ORRERY_INLINE typename V::M any_hit(const SphereTable<typename V::Real>& spheres, const Vec3<typename V::F>& o,
-                                    const Vec3<typename V::F>& d, const typename V::U& left, const Start& t_min,
-                                    const typename V::F& inverse_t_max, std::uint32_t skip, const typename V::M& live) {
+template <class V, class Among, class Start>
+ORRERY_INLINE typename V::M any_hit(const SphereTable<typename V::Real>& spheres, const Among& among,
+                                    const Vec3<typename V::F>& o, const Vec3<typename V::F>& d,
+                                    const typename V::U& left, const Start& t_min, const typename V::F& inverse_t_max,
+                                    std::uint32_t skip, const typename V::M& live) {
     using F = typename V::F;
     using U = typename V::U;
     constexpr bool from_origin = std::is_same_v<Start, FromOrigin>;
@@ -82,8 +85,8 @@ ORRERY_INLINE typename V::M any_hit(const SphereTable<typename V::Real>& spheres
         const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
         blocked = blocked || (inward && t * inverse_t_max < F(1));
     }
-    for (std::uint32_t k = 0; k < spheres.count; ++k) {
-        if (k == skip) continue;
+    among.each([&](std::uint32_t k) ORRERY_INLINE_LAMBDA {
+        if (k == skip) return false;
         const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
         const auto not_left = !words_equal(left_id, U(k));
         auto rest = not_left && line.disc > zero;
@@ -95,26 +98,48 @@ ORRERY_INLINE typename V::M any_hit(const SphereTable<typename V::Real>& spheres
             const auto first = first_root<V>(line, root(line.disc), t_min, rest);
             blocked = blocked || (first.exists && first.num * inverse_t_max < first.den);
         }
-        if (all(blocked)) break;
-    }
+        return all(blocked);
+    });
     return blocked && live;
+}
+
+template <class V, class Among>
+ORRERY_INLINE void intersect_among(const SphereTable<typename V::Real>& spheres, const Among& among,
+                                   const RayQueue<typename V::Real>& rays, std::uint32_t begin, std::uint32_t end,
+                                   const HitQueue<typename V::Real>& hits) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const F infinity(std::numeric_limits<typename V::Real>::infinity());
+    for (std::uint32_t i = begin; i < end; i += V::count) {
+        const auto o = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
+        const auto d = load3<V>(rays.dx + i, rays.dy + i, rays.dz + i);
+        // Lanes behind the last ray hold old rays: their result is never read, but their ids must be valid ones.
+        const auto live = first_lanes<V>(end - i);
+        const U left = choose(live, load<U>(rays.left + i), U(no_sphere));
+        const auto best = closest_hit<V>(spheres, among, o, d, left, FromOrigin{}, infinity);
+        save(hits.t + i, best.num / best.den);
+        save(hits.id + i, choose(live, best.id, U(no_sphere)));
+    }
 }
 
 template <class V>
 void intersect(const SphereTable<typename V::Real>& spheres, const RayQueue<typename V::Real>& rays,
                std::uint32_t count, const HitQueue<typename V::Real>& hits) {
-    using F = typename V::F;
-    using U = typename V::U;
-    const F infinity(std::numeric_limits<typename V::Real>::infinity());
-    for (std::uint32_t i = 0; i < count; i += V::count) {
-        const auto o = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
-        const auto d = load3<V>(rays.dx + i, rays.dy + i, rays.dz + i);
-        // Lanes behind the last ray hold old rays: their result is never read, but their ids must be valid ones.
-        const auto live = first_lanes<V>(count - i);
-        const U left = choose(live, load<U>(rays.left + i), U(no_sphere));
-        const auto best = closest_hit<V>(spheres, o, d, left, FromOrigin{}, infinity);
-        save(hits.t + i, best.num / best.den);
-        save(hits.id + i, choose(live, best.id, U(no_sphere)));
+    intersect_among<V>(spheres, AllSpheres{spheres.count}, rays, 0, count, hits);
+}
+
+/// The same, faster where neighbours in the queue run alike. The table has SomeSpheres::capacity spheres at most.
+template <class V>
+void intersect_coherent(const SphereTable<typename V::Real>& spheres, const RayQueue<typename V::Real>& rays,
+                        std::uint32_t count, const HitQueue<typename V::Real>& hits) {
+    for (std::uint32_t begin = 0; begin < count; begin += bunch_size) {
+        const std::uint32_t end = count - begin < bunch_size ? count : begin + bunch_size;
+        SomeSpheres among = every(spheres.count);
+        if (end - begin >= V::count)
+            among = candidates<V>(spheres, bound<V>({rays.ox + begin, rays.oy + begin, rays.oz + begin, rays.dx + begin,
+                                                     rays.dy + begin, rays.dz + begin},
+                                                    nullptr, end - begin));
+        intersect_among<V>(spheres, among, rays, begin, end, hits);
     }
 }
 

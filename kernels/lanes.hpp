@@ -139,6 +139,34 @@ ORRERY_INLINE T max(const T& a, const T& b) {
     }
 }
 
+/// The least lane.
+template <class T>
+ORRERY_INLINE std::enable_if_t<std::is_floating_point_v<T>, T> least(T x) {
+    return x;
+}
+template <class Real, class Arch>
+ORRERY_INLINE Real least(const xsimd::batch<Real, Arch>& x) {
+#if defined(__AVX512F__)
+    if constexpr (std::is_base_of_v<xsimd::avx512f, Arch> && std::is_same_v<Real, float>) {
+        return _mm512_reduce_min_ps(x);
+    } else
+#endif
+#if defined(__AVX2__)
+        if constexpr (std::is_base_of_v<xsimd::avx, Arch> && std::is_same_v<Real, float>) {
+        const __m256 all = x;
+        using Half = xsimd::batch<float, xsimd::sse2>;
+        return least(min(Half(_mm256_castps256_ps128(all)), Half(_mm256_extractf128_ps(all, 1))));
+    } else
+#endif
+    {
+        alignas(64) Real lane[xsimd::batch<Real, Arch>::size];
+        x.store_aligned(lane);
+        Real out = lane[0];
+        for (std::size_t i = 1; i < xsimd::batch<Real, Arch>::size; ++i) out = min(out, lane[i]);
+        return out;
+    }
+}
+
 template <class T>
 ORRERY_INLINE T magnitude(const T& x) {
     if constexpr (std::is_arithmetic_v<T>) {

@@ -39,7 +39,8 @@ SegmentHit<Real> intersects(const SphereTable<Real>& spheres, const Segment<Real
         return {hits.t[0], hits.id[0] & no_sphere, (hits.id[0] & inside_bit) != 0};
     }
     const Vec3<Real> o{segment.ox, segment.oy, segment.oz}, d{segment.dx, segment.dy, segment.dz};
-    const auto best = closest_hit<V>(spheres, o, d, WordOf<Real>{no_sphere}, segment.t_min, segment.t_max);
+    const auto best =
+        closest_hit<V>(spheres, AllSpheres{spheres.count}, o, d, WordOf<Real>{no_sphere}, segment.t_min, segment.t_max);
     return {best.num / best.den, best.id & no_sphere, (best.id & inside_bit) != 0};
 }
 
@@ -54,7 +55,8 @@ bool is_occluded(const SphereTable<Real>& spheres, const Segment<Real>& segment)
         return occluded != 0;
     }
     const Vec3<Real> o{segment.ox, segment.oy, segment.oz}, d{segment.dx, segment.dy, segment.dz};
-    return any_hit<V>(spheres, o, d, WordOf<Real>{no_sphere}, segment.t_min, inverse_t_max, no_sphere, true);
+    return any_hit<V>(spheres, AllSpheres{spheres.count}, o, d, WordOf<Real>{no_sphere}, segment.t_min, inverse_t_max,
+                      no_sphere, true);
 }
 
 /// Segments as columns, capacity a multiple of `widest`.
@@ -74,7 +76,8 @@ void intersects_columns(const SphereTable<typename V::Real>& spheres, const Segm
     using F = typename V::F;
     using U = typename V::U;
     for (std::uint32_t i = 0; i < count; i += V::count) {
-        const auto best = closest_hit<V>(spheres, load3<V>(segments.ox + i, segments.oy + i, segments.oz + i),
+        const auto best = closest_hit<V>(spheres, AllSpheres{spheres.count},
+                                         load3<V>(segments.ox + i, segments.oy + i, segments.oz + i),
                                          load3<V>(segments.dx + i, segments.dy + i, segments.dz + i), U(no_sphere),
                                          load<F>(segments.t_min + i), load<F>(segments.t_max + i));
         save(hits.t + i, best.num / best.den);
@@ -89,10 +92,10 @@ void is_occluded_columns(const SphereTable<typename V::Real>& spheres, const Seg
     using F = typename V::F;
     using U = typename V::U;
     for (std::uint32_t i = 0; i < count; i += V::count) {
-        const auto blocked = any_hit<V>(spheres, load3<V>(segments.ox + i, segments.oy + i, segments.oz + i),
-                                        load3<V>(segments.dx + i, segments.dy + i, segments.dz + i), U(no_sphere),
-                                        load<F>(segments.t_min + i), F(1) / load<F>(segments.t_max + i), no_sphere,
-                                        first_lanes<V>(count - i));
+        const auto blocked = any_hit<V>(
+            spheres, AllSpheres{spheres.count}, load3<V>(segments.ox + i, segments.oy + i, segments.oz + i),
+            load3<V>(segments.dx + i, segments.dy + i, segments.dz + i), U(no_sphere), load<F>(segments.t_min + i),
+            F(1) / load<F>(segments.t_max + i), no_sphere, first_lanes<V>(count - i));
         save(occluded + i, choose(blocked, U(1u), U(0u)));
     }
 }

@@ -6,22 +6,44 @@
 
 namespace orrery::kernels {
 
-/// `skip` is the light's own sphere, which bounds the segments and cannot block them; no_sphere for a point light.
-template <class V>
-void shadow(const SphereTable<typename V::Real>& spheres, const ShadowQueue<typename V::Real>& queue,
-            std::uint32_t count, std::uint32_t skip, const SlotTable<typename V::Real>& slots) {
+template <class V, class Among>
+ORRERY_INLINE void shadow_among(const SphereTable<typename V::Real>& spheres, const Among& among,
+                                const ShadowQueue<typename V::Real>& queue, std::uint32_t begin, std::uint32_t end,
+                                std::uint32_t skip, const SlotTable<typename V::Real>& slots) {
     using F = typename V::F;
     using U = typename V::U;
-    for (std::uint32_t i = 0; i < count; i += V::count) {
-        const auto live = first_lanes<V>(count - i);
+    for (std::uint32_t i = begin; i < end; i += V::count) {
+        const auto live = first_lanes<V>(end - i);
         const auto o = load3<V>(queue.ox + i, queue.oy + i, queue.oz + i);
         const auto d = load3<V>(queue.dx + i, queue.dy + i, queue.dz + i);
         const U left = choose(live, load<U>(queue.left + i), U(no_sphere));
         const auto blocked =
-            any_hit<V>(spheres, o, d, left, FromOrigin{}, load<F>(queue.inverse_t_max + i), skip, live);
+            any_hit<V>(spheres, among, o, d, left, FromOrigin{}, load<F>(queue.inverse_t_max + i), skip, live);
         const auto lit = live && !blocked;
         if (!any(lit)) continue;
         add_radiance<V>(slots, load<U>(queue.slot + i), load3<V>(queue.r + i, queue.g + i, queue.b + i), lit);
+    }
+}
+
+/// `skip` is the light's own sphere, which bounds the segments and cannot block them; no_sphere for a point light.
+template <class V>
+void shadow(const SphereTable<typename V::Real>& spheres, const ShadowQueue<typename V::Real>& queue,
+            std::uint32_t count, std::uint32_t skip, const SlotTable<typename V::Real>& slots) {
+    shadow_among<V>(spheres, AllSpheres{spheres.count}, queue, 0, count, skip, slots);
+}
+
+/// The same, as intersect_coherent.
+template <class V>
+void shadow_coherent(const SphereTable<typename V::Real>& spheres, const ShadowQueue<typename V::Real>& queue,
+                     std::uint32_t count, std::uint32_t skip, const SlotTable<typename V::Real>& slots) {
+    for (std::uint32_t begin = 0; begin < count; begin += bunch_size) {
+        const std::uint32_t end = count - begin < bunch_size ? count : begin + bunch_size;
+        SomeSpheres among = every(spheres.count);
+        if (end - begin >= V::count)
+            among = candidates<V>(spheres, bound<V>({queue.ox + begin, queue.oy + begin, queue.oz + begin,
+                                                     queue.dx + begin, queue.dy + begin, queue.dz + begin},
+                                                    queue.inverse_t_max + begin, end - begin));
+        shadow_among<V>(spheres, among, queue, begin, end, skip, slots);
     }
 }
 

@@ -23,7 +23,7 @@ struct Stages {
 
     using Intersect = void (*)(const SphereTable<Real>&, const RayQueue<Real>&, std::uint32_t count,
                                const HitQueue<Real>&);
-    Intersect intersect, intersect_tree;
+    Intersect intersect, intersect_coherent, intersect_tree;
 
     void (*emission)(const SphereTable<Real>&, const EmissionTable<Real>&, LightStrategy, const RayQueue<Real>&,
                      const HitQueue<Real>&, std::uint32_t count, const SlotTable<Real>&);
@@ -43,7 +43,7 @@ struct Stages {
 
     using Shadow = void (*)(const SphereTable<Real>&, const ShadowQueue<Real>&, std::uint32_t count, std::uint32_t skip,
                             const SlotTable<Real>&);
-    Shadow shadow, shadow_tree;
+    Shadow shadow, shadow_coherent, shadow_tree;
 
     std::uint32_t (*roulette)(const SlotTable<Real>&, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs&,
                               const RayQueue<Real>&);

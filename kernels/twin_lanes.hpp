@@ -162,6 +162,10 @@ ORRERY_INLINE Twin<B> max(const Twin<B>& a, const Twin<B>& b) {
     return {max(a.low, b.low), max(a.high, b.high)};
 }
 template <class B>
+ORRERY_INLINE typename B::value_type least(const Twin<B>& a) {
+    return least(min(a.low, a.high));
+}
+template <class B>
 ORRERY_INLINE Twin<B> magnitude(const Twin<B>& a) {
     return {magnitude(a.low), magnitude(a.high)};
 }

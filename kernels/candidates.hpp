@@ -1,0 +1,117 @@
+// Which spheres of a table a loop over spheres takes: all of them, or those that a bunch of coherent rays may meet.
+//
+// Camera rays of neighbouring pixels, and the shadow rays from what they hit, fill a thin cone; most of a scene's
+// spheres are nowhere near it. A cone against sixteen spheres costs about as much as one sphere against sixteen rays.
+#pragma once
+
+#include <bit>
+#include <limits>
+
+#include "kernels/tables.hpp"
+#include "kernels/vec3.hpp"
+
+namespace orrery::kernels {
+
+/// Calls test(k) in table order until it returns true.
+struct AllSpheres {
+    std::uint32_t count;
+
+    template <class Test>
+    ORRERY_INLINE void each(const Test& test) const {
+        for (std::uint32_t k = 0; k < count; ++k)
+            if (test(k)) return;
+    }
+};
+
+/// Those whose bit is set.
+struct SomeSpheres {
+    std::uint64_t bits;
+    static constexpr std::uint32_t capacity = 64;
+
+    template <class Test>
+    ORRERY_INLINE void each(const Test& test) const {
+        for (std::uint64_t rest = bits; rest != 0; rest &= rest - 1)
+            if (test(static_cast<std::uint32_t>(std::countr_zero(rest)))) return;
+    }
+};
+
+/// The first `count` <= SomeSpheres::capacity.
+ORRERY_INLINE SomeSpheres every(std::uint32_t count) {
+    return {count == 0 ? 0 : ~std::uint64_t{0} >> (SomeSpheres::capacity - count)};
+}
+
+/// Rays bounded together. Fewer waste the bound, more widen the cone.
+inline constexpr std::uint32_t bunch_size = 256;
+
+/// Every ray starts within `spread` of `origin` and runs along `axis`, give or take `deviation`, as far as `t_max`.
+template <class Real>
+struct Bunch {
+    Vec3<Real> origin, axis;
+    Real spread, deviation, t_max;
+};
+
+/// Bounds `count` >= V::count rays whose origins and directions stand in the six columns.
+template <class V>
+ORRERY_INLINE Bunch<typename V::Real> bound(const typename V::Real* const (&column)[6],
+                                            const typename V::Real* inverse_t_max, std::uint32_t count) {
+    using Real = typename V::Real;
+    using F = typename V::F;
+    F low[6], high[6];
+    for (int c = 0; c < 6; ++c) low[c] = high[c] = load<F>(column[c]);
+    F nearest = inverse_t_max != nullptr ? load<F>(inverse_t_max) : F(0);
+    for (std::uint32_t i = V::count; i < count; i += V::count) {
+        // The last vector overlaps the one before rather than reach behind the last ray.
+        const std::uint32_t at = i + V::count <= count ? i : count - V::count;
+        for (int c = 0; c < 6; ++c) {
+            const F x = load<F>(column[c] + at);
+            low[c] = min(low[c], x);
+            high[c] = max(high[c], x);
+        }
+        if (inverse_t_max != nullptr) nearest = min(nearest, load<F>(inverse_t_max + at));
+    }
+    Real middle[6], half[6];
+    for (int c = 0; c < 6; ++c) {
+        const Real from = least(low[c]), to = -least(F(0) - high[c]);
+        middle[c] = Real(0.5) * (from + to);
+        // The middle is rounded: far from the world's origin by more than rays that start close together are apart.
+        half[c] = mul_add(magnitude(middle[c]), Real(0x1p-22), Real(0.5) * (to - from));
+    }
+    const auto length = [](Real x, Real y, Real z) ORRERY_INLINE_LAMBDA { return root(x * x + y * y + z * z); };
+    return {{middle[0], middle[1], middle[2]},
+            {middle[3], middle[4], middle[5]},
+            length(half[0], half[1], half[2]),
+            length(half[3], half[4], half[5]),
+            Real(1) / least(nearest)};
+}
+
+/// The spheres of a table of at most SomeSpheres::capacity that some ray of the bunch may meet.
+///
+/// Point t of a ray lies within spread + t deviation of origin + t axis. So a ray can only meet a sphere where, with
+/// f = C - origin and R = r + spread, |f - t axis| <= R + t deviation for some t in [0, t_max]. Squared that is a
+/// parabola, whose lowest point is easily found; there the distance is computed as `chord` does it, without
+/// cancellation. R is enlarged by 2^-18 of itself and of |f|, which is sixteen times what rounding makes of either.
+template <class V>
+ORRERY_INLINE SomeSpheres candidates(const SphereTable<typename V::Real>& spheres,
+                                     const Bunch<typename V::Real>& bunch) {
+    using Real = typename V::Real;
+    using F = typename V::F;
+    const Real narrow = dot(bunch.axis, bunch.axis) - bunch.deviation * bunch.deviation;
+    if (!(narrow > Real(0.01))) return every(spheres.count);
+    const Vec3<F> origin{F(bunch.origin.x), F(bunch.origin.y), F(bunch.origin.z)};
+    const Vec3<F> axis{F(bunch.axis.x), F(bunch.axis.y), F(bunch.axis.z)};
+    std::uint64_t may = 0;
+    for (std::uint32_t k = 0; k < spheres.count; k += V::count) {
+        const Vec3<F> f = load3<V>(spheres.cx + k, spheres.cy + k, spheres.cz + k) - origin;
+        const F f2 = dot(f, f);
+        const F enough = load<F>(spheres.radius + k) + F(bunch.spread);
+        const F radius = mul_add(root(f2) + enough, F(Real(0x1p-18)), enough);
+        const F slope = mul_add(radius, F(bunch.deviation), dot(f, axis));
+        const F t = min(max(slope * F(Real(1) / narrow), F(0)), F(bunch.t_max));
+        const Vec3<F> l = back_along(f, t, axis);
+        const F reach = mul_add(t, F(bunch.deviation), radius);
+        may |= std::uint64_t{bits(!(reach * reach < dot(l, l)))} << k;
+    }
+    return {may & every(spheres.count).bits};
+}
+
+}  // namespace orrery::kernels

@@ -1,0 +1,209 @@
+// The stages for coherent rays: the loop's bytes, from fewer spheres.
+#include "geometry.hpp"
+#include "kernel_test.hpp"
+#include "kernels/candidates.hpp"
+#include "kernels/intersect.hpp"
+#include "numbers.hpp"
+#include "owned.hpp"
+
+namespace orrery::kernel_tests {
+namespace {
+
+using kernels::no_sphere;
+
+/// Sizes over eight orders of magnitude about a place; the camera is within one here and there.
+std::vector<Ball> balls_around(const glm::dvec3& place, std::uint32_t count, std::uint64_t seed) {
+    Numbers random(seed);
+    std::vector<Ball> balls(count);
+    for (Ball& ball : balls) {
+        ball.radius = random.scale(1e-4, 1e4);
+        ball.centre = place + random.direction() * (random.between(0.5, 3) * ball.radius + random.scale(1e-2, 1e3));
+    }
+    return balls;
+}
+
+/// The second is so far away that neighbouring floats are 1/128 apart.
+constexpr glm::dvec3 places[] = {{0, 0, 0}, {1e5, -1e5, 7e4}};
+
+/// A bunch of rays from about one place in about one direction: half of them past the very outline of some sphere,
+/// which float rounding may find on either side.
+struct Beam {
+    double spread;  ///< of the origins
+    double angle;   ///< of the directions
+};
+constexpr Beam single{0,
+                      0};  // one ray over and over, so that only the margin for rounding is left between cone and ray
+constexpr Beam beams[] = {single,     {0, 1e-6}, {0, 1e-3},  {0, 0.1}, {1e-3, 1e-2},
+                          {0.1, 0.3}, {1, 1},    {100, 0.1}, {1, 3.2}};
+
+struct Ray {
+    glm::dvec3 o, d;
+};
+Ray ray_of(const Beam& beam, const Ball& target, const glm::dvec3& eye, Numbers& random) {
+    const glm::dvec3 o = eye + random.point(1) * beam.spread;
+    const glm::dvec3 to = target.centre - o;
+    const double distance = glm::length(to);
+    const glm::dvec3 aside = glm::normalize(glm::cross(to, random.direction()));
+    const double graze = 1 + random.between(-4, 4) * 0x1p-24 * std::max(1.0, distance / target.radius);
+    const bool outside = distance > target.radius;
+    const double sine = outside ? std::min(target.radius * graze / distance, 1.0) : 0;
+    const glm::dvec3 outline = to / distance * std::sqrt(1 - sine * sine) + aside * sine;
+    if (random.uniform() < 0.5) return {o, outline};
+    return {o, glm::normalize(outline + random.direction() * beam.angle)};
+}
+
+class CoherentTest : public KernelTest {};
+
+TEST_P(CoherentTest, MeetsWhatTheLoopMeets) {
+    std::uint32_t met = 0, all = 0;
+    const auto compare = [&](const World& world, const std::vector<Ball>& balls, const glm::dvec3& place,
+                             const Beam& beam, std::uint32_t count) {
+        Numbers random(count);
+        Rays rays(kernels::round_up(count));
+        glm::dvec3 eye{};
+        const Ball* target = nullptr;
+        Ray ray{};
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const bool first = i % kernels::bunch_size == 0;
+            if (first) eye = place + random.point(20), target = &balls[random.below(world.spheres.count)];
+            if (first || beam.angle > 0) ray = ray_of(beam, *target, eye, random);
+            // Rays that leave a sphere are as coherent: neighbours' first hits, a mirror's image.
+            put_ray(*rays, i, ray.o, ray.d, i % 3 == 0 ? random.below(world.spheres.count) : no_sphere);
+        }
+        Hits hits(kernels::round_up(count)), wanted = hits;
+        const Hits before = hits;
+        stages.intersect(world.spheres, *rays, count, *wanted);
+        stages.intersect_coherent(world.spheres, *rays, count, *hits);
+        EXPECT_TRUE(hits.untouched_but(before, 0, kernels::round_up(count)));
+        for (std::uint32_t i = 0; i < count; ++i) met += hits->id[i] != no_sphere;
+        all += count;
+        return hits.same_as(wanted, 0, count);
+    };
+    for (const glm::dvec3& place : places)
+        for (const std::uint32_t size : {1u, 5u, 16u, 33u, 64u}) {
+            const std::vector<Ball> balls = balls_around(place, size, size);
+            const World world(balls);
+            for (const Beam& beam : beams)
+                for (const std::uint32_t count : {1u, 31u, 32u, 125u, 257u, 1700u})
+                    ASSERT_TRUE(compare(world, balls, place, beam, count))
+                        << size << " spheres at " << place.x << ", " << count << " rays, angle " << beam.angle
+                        << ", spread " << beam.spread;
+        }
+    EXPECT_GT(met, all / 10);
+    EXPECT_LT(met, all - all / 10);
+}
+
+TEST_P(CoherentTest, IsShadowedByWhatTheLoopFinds) {
+    const std::vector<Ball> balls = balls_around(places[0], 50, 3);
+    const World world(balls);
+    std::uint32_t lit = 0, all = 0;
+    for (const Beam& beam : beams)
+        for (const std::uint32_t skip : {no_sphere, 7u})
+            for (const std::uint32_t count : {1u, 33u, 256u, 3700u}) {
+                Numbers random(count + skip);
+                Shadows queue(kernels::round_up(count));
+                glm::dvec3 eye{};
+                const Ball* target = nullptr;
+                Ray ray{};
+                double reach = 0;
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    const bool first = i % kernels::bunch_size == 0;
+                    if (first) eye = random.point(20), target = &balls[random.below(50)];
+                    if (first || beam.angle > 0) {
+                        ray = ray_of(beam, *target, eye, random);
+                        // Ends before, about at and behind the target.
+                        reach = glm::length(target->centre - ray.o) * random.between(0.5, 1.5);
+                    }
+                    put3(queue->ox, queue->oy, queue->oz, i, ray.o);
+                    put3(queue->dx, queue->dy, queue->dz, i, ray.d);
+                    put3(queue->r, queue->g, queue->b, i, glm::dvec3(1));
+                    queue->inverse_t_max[i] = count == 33 ? 0 : narrow(1 / reach);
+                    queue->left[i] = i % 3 == 0 ? random.below(50) : no_sphere;
+                    queue->slot[i] = i;
+                }
+                Slots slots(kernels::round_up(count));
+                for (std::uint32_t i = 0; i < 4 * count; ++i) slots->radiance[i] = 0;
+                Slots wanted = slots;
+                stages.shadow(world.spheres, *queue, count, skip, *wanted);
+                stages.shadow_coherent(world.spheres, *queue, count, skip, *slots);
+                ASSERT_TRUE(slots.same_as(wanted, 0, count))
+                    << count << " rays, angle " << beam.angle << ", spread " << beam.spread;
+                for (std::uint32_t i = 0; i < count; ++i) lit += slots->radiance[4 * i] > 0;
+                all += count;
+            }
+    EXPECT_GT(lit, all / 10);
+    EXPECT_LT(lit, all - all / 10);
+}
+
+// What the whole is for: a lattice of 64 spheres, and rays about one of them.
+TEST(CandidatesTest, AreFewForANarrowBeamAndAllForAWideOne) {
+    std::vector<Ball> balls;
+    for (int k = 0; k < 64; ++k) balls.push_back({{k % 8, k / 8, 10}, 0.4});
+    const World world(balls);
+    const kernels::Bunch<float> narrow_beam{{3, 3, 0}, {0, 0, 1}, 0.1f, 0.01f, std::numeric_limits<float>::infinity()};
+    using One = kernels::ScalarLanes<float>;
+    EXPECT_EQ(kernels::candidates<One>(world.spheres, narrow_beam).bits, std::uint64_t{1} << 27);
+    kernels::Bunch<float> wider = narrow_beam;
+    wider.deviation = 0.1f;  // reaches 1.1 at the lattice: the four neighbours as well, the diagonals at 1.41 too
+    EXPECT_EQ(std::popcount(kernels::candidates<One>(world.spheres, wider).bits), 9);
+    wider.t_max = 8;
+    EXPECT_EQ(kernels::candidates<One>(world.spheres, wider).bits, 0u);
+    wider.deviation = 2;
+    EXPECT_EQ(kernels::candidates<One>(world.spheres, wider).bits, ~std::uint64_t{0});
+}
+
+// To the last bit, however the middle of the bunch is rounded.
+TEST(CandidatesTest, TheBoundHoldsEveryRay) {
+    using One = kernels::ScalarLanes<float>;
+    Numbers random(11);
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 place = random.direction() * random.scale(1e-3, 1e7), ahead = random.direction();
+        const double spread = glm::length(place) * random.scale(1e-8, 1), angle = random.scale(1e-8, 1);
+        Rays rays(kernels::widest);
+        for (std::uint32_t k = 0; k < 32; ++k)
+            put_ray(*rays, k, place + random.point(spread), ahead + random.point(angle));
+        const auto bunch =
+            kernels::bound<One>({rays->ox, rays->oy, rays->oz, rays->dx, rays->dy, rays->dz}, nullptr, 32);
+        const glm::dvec3 origin{bunch.origin.x, bunch.origin.y, bunch.origin.z};
+        const glm::dvec3 axis{bunch.axis.x, bunch.axis.y, bunch.axis.z};
+        for (std::uint32_t k = 0; k < 32; ++k) {
+            ASSERT_LE(glm::length(origin_of(*rays, k) - origin), bunch.spread);
+            ASSERT_LE(glm::length(direction_of(*rays, k) - axis), bunch.deviation);
+        }
+        ASSERT_LE(bunch.spread, 4 * spread + 1e-6 * glm::length(place)) << "no wider than it need be";
+    }
+}
+
+// Spheres that the cone just touches, and that rounding would lose; a hundredth further out they are no candidates.
+TEST(CandidatesTest, ErrOnTheSideOfYes) {
+    using One = kernels::ScalarLanes<float>;
+    Numbers random(12);
+    std::uint32_t beyond = 0;
+    for (int i = 0; i < 10000; ++i) {
+        const glm::dvec3 axis = random.direction();
+        const double deviation = random.scale(1e-6, 0.5), spread = random.scale(1e-6, 1), t = random.scale(1e-2, 1e4);
+        const kernels::Bunch<float> bunch{{0, 0, 0},
+                                          {narrow(axis.x), narrow(axis.y), narrow(axis.z)},
+                                          narrow(spread),
+                                          narrow(deviation),
+                                          std::numeric_limits<float>::infinity()};
+        const glm::dvec3 side = glm::normalize(glm::cross(axis, random.direction()));
+        // The cone's outline rises by `deviation` per unit length, so what touches it from outside lies on the normal.
+        const double radius = random.scale(1e-3, 1e3),
+                     rise = std::atan(deviation / std::sqrt(1 - deviation * deviation));
+        const auto touching = [&](double times) {
+            const glm::dvec3 normal = side * std::cos(rise) - axis * std::sin(rise);
+            const glm::dvec3 outline = axis * t + side * (t * std::tan(rise) + spread / std::cos(rise));
+            return Ball{outline + normal * (radius * times), radius};
+        };
+        const World inner({touching(1 - 1e-7)}), outer({touching(1.01)});
+        ASSERT_EQ(kernels::candidates<One>(inner.spheres, bunch).bits, 1u) << deviation << " " << spread << " " << t;
+        beyond += kernels::candidates<One>(outer.spheres, bunch).bits == 0;
+    }
+    EXPECT_GT(beyond, 5000u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Isas, CoherentTest, ::testing::ValuesIn(supported_isas()), name_of_isa);
+
+}  // namespace
+}  // namespace orrery::kernel_tests
