@@ -1,0 +1,28 @@
+// What the suite consists of: cases, each of which measures an error and knows the limit we promise. The tests run
+// them, and the program that writes the table does, with more trials.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "errors.hpp"
+
+namespace orrery::extremes {
+
+struct Case {
+    std::string group;  ///< what is tested: "ray and sphere"
+    std::string name;   ///< at which extreme: "distance up to 1e8 radii"
+    std::string mode;   ///< "float", "float, SSE2", "double"
+    std::string unit;   ///< what an error of 1 is
+    double limit;       ///< the greatest error we promise
+    std::uint64_t trials;
+    std::function<void(Errors&, std::uint64_t trials)> run;
+};
+
+/// The order is that of the table.
+std::vector<Case> all_cases();
+
+void add_ray_and_sphere(std::vector<Case>& cases);
+
+}  // namespace orrery::extremes
