@@ -232,12 +232,12 @@ Recording record(const Plan& plan, std::uint32_t waves) {
     Wave wave(plan, table, film, recording.wave_size);
     Session here{forward, recording, &wave};
     session = &here;
-    const Tiling tiles(plan.settings().width, plan.settings().height, plan.samples());
+    const Tiling tiles(plan.settings().width, plan.settings().height, tile_side(plan.samples()));
     // Steps of the golden section visit the image evenly, whatever the number of tiles in a row.
     const auto step = static_cast<std::size_t>(0.618 * static_cast<double>(tiles.size())) | 1;
     for (std::size_t i = 0; i < waves; ++i) {
         int polls = 0;  // before each wave: one wave of a tile is enough
-        render_tile(wave, tiles[(i + 1) * step % tiles.size()], whole_pattern(plan), [&] { return polls++ == 1; });
+        render_tile(wave, {tiles[(i + 1) * step % tiles.size()], whole_pattern(plan)}, [&] { return polls++ == 1; });
         wave.count = 0;
     }
     session = nullptr;

@@ -74,6 +74,23 @@ void add_image(CLI::App& app, Overrides& overrides) {
         ->group("Image");
 }
 
+void add_stops(CLI::App& app, Arguments& arguments) {
+    const char* group = "Stop (--spp is a ceiling to these, on the average over pixels)";
+    add_option(app, "--error", "SHARE",
+               "Render until the image's relative error is estimated to be this, such as 1% or 0.01",
+               [&](const std::string& text) { arguments.error = parse_share(text); })
+        ->group(group);
+    add_option(app, "--time", "TIME",
+               "Render what fits into this, such as 30s, 2m or 500ms; another run gives another image",
+               [&](const std::string& text) { arguments.seconds = parse_duration(text); })
+        ->group(group);
+    add_option(app, "--adaptive", alternatives(switch_words),
+               "Take more samples where the error is larger; without a stop of this group there is none to adapt to "
+               "(default: on)",
+               [&](const std::string& text) { arguments.adaptive = parse_word(text, switch_words); })
+        ->group(group);
+}
+
 void add_method(CLI::App& app, Overrides& overrides) {
     add_choice(app, "--integrator", integrator_words,
                "Path tracing, Whitted ray tracing, or distances (default: the scene's)", overrides.integrator);
@@ -134,7 +151,7 @@ void add_quiet(CLI::App& app, Arguments& arguments) {
 constexpr const char* render_example =
     "Example: a quick look, then the real thing in two formats\n"
     "  orrery render scenes/assignment_08.json --size 256x256 --spp 16 -o look.png\n"
-    "  orrery render scenes/assignment_08.json --spp 400 -o image.png -o image.exr\n"
+    "  orrery render scenes/assignment_08.json --error 2% -o image.png -o image.exr\n"
     "\n"
     "Standard output names the images written, one on a line. Exit code: 0 written, 1 the work failed,\n"
     "2 bad usage or a bad scene.";
@@ -171,6 +188,7 @@ std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv
     add_scene(render, arguments);
     add_outputs(render, arguments);
     add_image(render, arguments.overrides);
+    add_stops(render, arguments);
     add_method(render, arguments.overrides);
     add_machine(render, arguments);
     add_reports(render, arguments);
@@ -180,6 +198,7 @@ std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv
     CLI::App& info = *app.add_subcommand("info", "Show how a scene would be rendered, and why so");
     add_scene(info, arguments);
     add_image(info, arguments.overrides);
+    add_stops(info, arguments);
     add_method(info, arguments.overrides);
     add_machine(info, arguments);
     add_quiet(info, arguments);
@@ -205,6 +224,16 @@ std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv
     for (const auto& [command, meant] : others)
         if (command->parsed()) arguments.command = meant;
     return arguments;
+}
+
+Goal goal_of(const Arguments& arguments) {
+    const Goal goal{.error = arguments.error.value_or(0),
+                    .seconds = arguments.seconds.value_or(0),
+                    .samples = arguments.overrides.samples.value_or(0),
+                    .adaptive = arguments.adaptive.value_or(true)};
+    if (arguments.adaptive && !goal.asked())
+        throw UsageError("--adaptive: found no stop to adapt to, expected --error or --time beside it");
+    return goal;
 }
 
 }  // namespace orrery

@@ -10,6 +10,7 @@
 
 #include "cli/overrides.hpp"
 #include "kernels/isa.hpp"
+#include "wavefront/goal.hpp"
 #include "worlds/world.hpp"
 
 namespace orrery {
@@ -41,6 +42,9 @@ struct Arguments {
     ComparisonRequest comparison;
     std::vector<std::filesystem::path> outputs;  ///< empty: where the scene says
     std::optional<std::filesystem::path> error_image;
+    std::optional<double> error;    ///< --error, as a share: 1 % is 0.01
+    std::optional<double> seconds;  ///< --time
+    std::optional<bool> adaptive;
     std::optional<std::string> stats;  ///< a file, or "-" for standard output
     unsigned threads = 0;              ///< 0: all cores
     Isa isa = best_isa();              ///< supported by this machine
@@ -48,6 +52,10 @@ struct Arguments {
     bool profile = false;              ///< print where the time went
     bool quiet = false;                ///< neither progress nor warnings
 };
+
+/// When to stop, where that is not the scene's number of samples. Throws UsageError where --adaptive has nothing to
+/// adapt to.
+Goal goal_of(const Arguments& arguments);
 
 /// A command line that is answered with text and nothing else: help, the version, or what is wrong with it.
 struct Answer {

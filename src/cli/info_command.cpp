@@ -20,7 +20,13 @@ std::string bytes_text(std::uint64_t bytes) {
     return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / mebi);
 }
 
-std::string samples_text(const Plan& plan) {
+std::string samples_text(const Plan& plan, const Goal& goal) {
+    if (goal.asked()) {
+        std::string text = goal.error > 0 ? fmt::format("until the error is below {:.3g} %", 100 * goal.error) : "";
+        if (goal.seconds > 0) text += fmt::format("{}what fits into {} s", text.empty() ? "" : ", or ", goal.seconds);
+        if (goal.samples > 0) text += fmt::format(", at most {} per pixel", goal.samples);
+        return text + (goal.adaptive ? ", adaptive" : ", the same for all pixels");
+    }
     const RenderSettings& settings = plan.settings();
     if (settings.estimator == Estimator::uniform) return fmt::format("{} per pixel, uniform", plan.samples());
     std::string text = fmt::format("{} per pixel, stratified {} x {}", plan.samples(), plan.strata(), plan.strata());
@@ -67,7 +73,7 @@ int info_command(const Arguments& arguments) {
     row("image", fmt::format("{} x {} pixels, tone mapper {}", settings.width, settings.height,
                              word_for(tonemap_words, tone_mapper(settings))));
     row("output", settings.output.empty() ? "none named" : settings.output.string());
-    row("samples", samples_text(plan));
+    row("samples", samples_text(plan, goal_of(arguments)));
     row("seed", std::to_string(settings.seed));
     row("method", method_text(settings));
     row("film", bytes_text(pixels * bytes_per_pixel));

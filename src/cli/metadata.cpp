@@ -8,10 +8,18 @@
 
 namespace orrery {
 
-std::string canonical_options(const RenderSettings& s, ImageFormat format) {
-    std::string text = fmt::format("--integrator {} --size {}x{} --spp {}", word_for(integrator_words, s.integrator),
-                                   s.width, s.height, s.samples);
+std::string canonical_options(const RenderSettings& s, const Goal& goal, ImageFormat format) {
+    std::string text =
+        fmt::format("--integrator {} --size {}x{}", word_for(integrator_words, s.integrator), s.width, s.height);
     const auto add = [&](std::string_view option, auto value) { text += fmt::format(" --{} {}", option, value); };
+    if (goal.asked()) {
+        if (goal.error > 0) add("error", goal.error);
+        if (goal.seconds > 0) add("time", fmt::format("{}s", goal.seconds));
+        if (goal.samples > 0) add("spp", goal.samples);
+        add("adaptive", word_for(switch_words, goal.adaptive));
+    } else {
+        add("spp", s.samples);
+    }
     add("estimator", word_for(estimator_words, s.estimator));
     add("seed", s.seed);
     if (s.integrator != Integrator::depth) {
@@ -29,14 +37,14 @@ std::string canonical_options(const RenderSettings& s, ImageFormat format) {
     return text;
 }
 
-Metadata image_metadata(const Plan& plan, ImageFormat format, std::string_view content) {
+Metadata image_metadata(const Plan& plan, ImageFormat format, const Making& making) {
     const RenderSettings& settings = plan.settings();
     Metadata metadata = {{"scene", plan.scene().file.filename().string()},
                          {"seed", std::to_string(settings.seed)},
-                         {"samples", std::to_string(plan.samples())},
-                         {"options", canonical_options(settings, format)},
+                         {"samples", fmt::format("{}", making.samples > 0 ? making.samples : plan.samples())},
+                         {"options", canonical_options(settings, making.goal, format)},
                          {"version", fmt::format("orrery {}", version())}};
-    if (content != "radiance") metadata.emplace_back("content", content);
+    if (making.content != "radiance") metadata.emplace_back("content", making.content);
     return metadata;
 }
 

@@ -4,13 +4,15 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 namespace orrery {
 
 /// "[######--------]  42 %  86.3 Mrays/s  1:23 left" in at most `columns` characters: the bar takes what the figures
-/// leave. `fraction` in [0, 1], `seconds` since the start.
-std::string progress_line(double fraction, std::uint64_t rays, double seconds, std::size_t columns);
+/// leave. `fraction` in [0, 1], `seconds` since the start; `error` of the image so far, where it is finite.
+std::string progress_line(double fraction, std::uint64_t rays, double seconds, std::size_t columns,
+                          double error = std::numeric_limits<double>::infinity());
 
 /// "7 s", "1:23" or "4:05:06".
 std::string duration_text(double seconds);
@@ -28,12 +30,15 @@ public:
     ProgressBar& operator=(const ProgressBar&) = delete;
 
     bool shows() const { return shows_; }
+    /// For the next updates.
+    void set_error(double error) { error_ = error; }
     void update(double fraction, std::uint64_t rays);
 
 private:
     void clear();
 
     bool shows_;
+    double error_ = std::numeric_limits<double>::infinity();
     std::size_t drawn_ = 0;  ///< characters on the terminal's line now
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

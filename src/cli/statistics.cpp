@@ -43,6 +43,17 @@ Json error_json(const RootMeanSquare& error) {
     return {{"estimate", error.value}, {"interval_95", {error.low, error.high}}};
 }
 
+/// null where the scene or --spp gave the number of samples.
+Json goal_json(const Goal& goal) {
+    if (!goal.asked()) return nullptr;
+    Json json = Json::object();
+    if (goal.error > 0) json["error"] = goal.error;
+    if (goal.seconds > 0) json["seconds"] = goal.seconds;
+    if (goal.samples > 0) json["samples_per_pixel"] = goal.samples;
+    json["adaptive"] = goal.adaptive;
+    return json;
+}
+
 Json decisions(const Plan& plan) {
     Json list = Json::array();
     for (const Decision& decision : plan.decisions())
@@ -57,7 +68,7 @@ double rays_per_second(const RenderStats& stats) {
     return stats.seconds > 0 ? static_cast<double>(stats.closest_rays + stats.shadow_rays) / stats.seconds : 0;
 }
 
-std::string statistics_json(const Plan& plan, const RenderStats& stats,
+std::string statistics_json(const Plan& plan, const Goal& goal, const RenderStats& stats,
                             const std::vector<std::filesystem::path>& images) {
     const RenderSettings& settings = plan.settings();
     Json json = {
@@ -67,6 +78,10 @@ std::string statistics_json(const Plan& plan, const RenderStats& stats,
         {"integrator", word_for(integrator_words, settings.integrator)},
         {"size", {settings.width, settings.height}},
         {"samples_per_pixel", stats.samples_per_pixel},
+        {"samples_of_any_pixel", {stats.least_samples, stats.most_samples}},
+        {"goal", goal_json(goal)},
+        {"stopped_by", word_for(stop_words, stats.stopped_by)},
+        {"passes", stats.passes},
         {"depth", settings.depth},
         {"seed", settings.seed},
         {"isa", isa_name(stats.isa)},

@@ -11,7 +11,7 @@
 namespace orrery {
 
 /// `--stats`: an object with a newline at its end. `images` are the files written.
-std::string statistics_json(const Plan& plan, const RenderStats& stats,
+std::string statistics_json(const Plan& plan, const Goal& goal, const RenderStats& stats,
                             const std::vector<std::filesystem::path>& images);
 
 /// Closest and shadow rays together, over the wall time.

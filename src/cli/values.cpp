@@ -4,6 +4,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "cli/exit_code.hpp"
 #include "scene/printable.hpp"
@@ -19,6 +21,16 @@ std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t l
     const bool whole = error == std::errc() && end == text.data() + text.size();
     if (!whole || value < low || value > high) return std::nullopt;
     return value;
+}
+
+/// A decimal number and what is behind it. Empty where there is none, or a sign or an exponent.
+std::optional<std::pair<double, std::string_view>> number_and_rest(std::string_view text) {
+    double value = 0;
+    if (text.empty() || (text.front() != '.' && (text.front() < '0' || text.front() > '9'))) return std::nullopt;
+    const char* const behind = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), behind, value, std::chars_format::fixed);
+    if (error != std::errc()) return std::nullopt;
+    return std::pair{value, std::string_view(end, static_cast<std::size_t>(behind - end))};
 }
 
 }  // namespace
@@ -49,6 +61,28 @@ ImageSize parse_size(std::string_view text) {
         if (width && height) return {*width, *height};
     }
     throw unexpected(text, fmt::format("WIDTHxHEIGHT in pixels such as 640x480, each from 1 to {}", largest_dimension));
+}
+
+double parse_share(std::string_view text) {
+    if (const auto number = number_and_rest(text)) {
+        const auto& [value, rest] = *number;
+        const double share = rest == "%" ? value / 100 : value;
+        if ((rest.empty() || rest == "%") && share >= 1e-6 && share <= 1) return share;
+    }
+    throw unexpected(text, "a share such as 1% or 0.01, from 0.0001% to 100%");
+}
+
+double parse_duration(std::string_view text) {
+    if (const auto number = number_and_rest(text)) {
+        const auto& [value, unit] = *number;
+        const double seconds = unit == "ms"  ? value / 1000
+                               : unit == "s" ? value
+                               : unit == "m" ? value * 60
+                               : unit == "h" ? value * 3600
+                                             : -1;
+        if (seconds >= 1e-3 && seconds <= 366.0 * 24 * 3600) return seconds;
+    }
+    throw unexpected(text, "a time such as 30s, 2m, 1.5h or 500ms");
 }
 
 Isa parse_isa(std::string_view text) {

@@ -21,6 +21,12 @@ double parse_limit(std::string_view text);
 /// "640x480", each 1 to 65536. Throws UsageError.
 ImageSize parse_size(std::string_view text);
 
+/// "1%" or "0.01", from 0.0001 % to 100 %: 0.01. Throws UsageError.
+double parse_share(std::string_view text);
+
+/// "30s", "2m", "1.5h" or "500ms", from a millisecond to a year: seconds. Throws UsageError.
+double parse_duration(std::string_view text);
+
 /// An instruction set this machine runs; "auto" is the best of them. Throws UsageError naming those it runs.
 Isa parse_isa(std::string_view text);
 

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "scene/scene.hpp"
+#include "wavefront/goal.hpp"
 #include "worlds/world.hpp"
 
 namespace orrery {
@@ -38,6 +39,9 @@ inline constexpr Words<worlds::Kind, 4> world_words = {{{"random", worlds::Kind:
                                                         {"lattice", worlds::Kind::lattice},
                                                         {"cluster", worlds::Kind::cluster},
                                                         {"cosmos", worlds::Kind::cosmos}}};
+
+inline constexpr Words<StopReason, 3> stop_words = {
+    {{"samples", StopReason::samples}, {"error", StopReason::error}, {"time", StopReason::time}}};
 
 template <class Value, std::size_t count>
 constexpr std::string_view word_for(const Words<Value, count>& words, Value value) {

@@ -42,7 +42,8 @@ ErrorSums error_of_tile(const Film& film, Integrator integrator, const Image& im
     ErrorSums sums;
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y)
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x)
-            sums.add(estimate(film, integrator, std::size_t{y} * image.width + x), mean_around(image, x, y));
+            if (tile.has(x, y))
+                sums.add(estimate(film, integrator, std::size_t{y} * image.width + x), mean_around(image, x, y));
     return sums;
 }
 

@@ -31,7 +31,7 @@ std::uint32_t generate(Wave& w) {
     const StageTimer timer(w, Stage::generate, 0,
                            {w.count, 4 * word + record_bytes(w.storage.rays) + row, w.stages.step});
     const auto stage = w.plan.needs().lens ? w.stages.generate_lens : w.stages.generate_pinhole;
-    stage(w.plan.camera(), w.storage.slots, w.count, w.plan.settings().seed, w.storage.rays);
+    stage(w.camera, w.storage.slots, w.count, w.plan.settings().seed, w.storage.rays);
     return w.count;
 }
 

@@ -1,110 +1,81 @@
 #include "wavefront/render.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
-#include <algorithm>
-#include <atomic>
-#include <mutex>
-#include <stdexcept>
 
 #include "wavefront/develop.hpp"
-#include "wavefront/stage_timer.hpp"
-#include "wavefront/tile.hpp"
-#include "wavefront/wave.hpp"
+#include "wavefront/passes.hpp"
+#include "wavefront/workers.hpp"
 
 namespace orrery {
-
 namespace {
 
-/// Tells the caller how far the render is, at most ten times a second and from one thread at a time.
-class Progress {
-public:
-    Progress(const RenderOptions& options, std::size_t tiles) : options_(options), tiles_(tiles) {}
-    void tile_done(std::uint64_t rays) {
-        const std::size_t done = ++done_;
-        const std::uint64_t total = rays_ += rays;
-        if (!options_.progress) return;
-        const std::unique_lock lock(mutex_, std::try_to_lock);
-        const auto now = Clock::now();
-        if (!lock || (done < tiles_ && now - last_ < std::chrono::milliseconds(100))) return;
-        last_ = now;
-        options_.progress(static_cast<double>(done) / static_cast<double>(tiles_), total);
-    }
+using Clock = std::chrono::steady_clock;
 
-private:
-    using Clock = std::chrono::steady_clock;
-    const RenderOptions& options_;
-    std::size_t tiles_;
-    std::atomic<std::size_t> done_ = 0;
-    std::atomic<std::uint64_t> rays_ = 0;
-    std::mutex mutex_;
-    Clock::time_point last_{};
-};
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+double work_of(const std::vector<Task>& tasks) {
+    double samples = 0;
+    for (const Task& task : tasks) samples += static_cast<double>(task.samples());
+    return samples;
+}
+
+/// Every pixel's samples at once, as the plan says.
+void render_at_once(const Plan& plan, Workers& workers, Progress& progress, RenderStats& stats) {
+    const Tiling tiles(plan.settings().width, plan.settings().height, tile_side(plan.samples()));
+    std::vector<Task> tasks;
+    for (std::size_t i = 0; i < tiles.size(); ++i) tasks.push_back({tiles[i], whole_pattern(plan)});
+    progress.begin(0, 1, work_of(tasks));
+    workers.run(tasks, progress);
+    stats.samples_per_pixel = stats.least_samples = stats.most_samples = plan.samples();
+}
+
+/// Pass after pass until the goal is reached.
+void render_in_passes(const Plan& plan, const RenderOptions& options, const Film& film, Workers& workers,
+                      Progress& progress, RenderStats& stats) {
+    const Integrator integrator = plan.settings().integrator;
+    const auto start = Clock::now();
+    Passes passes(plan, options.goal);
+    std::vector<ErrorSums> errors(passes.regions().size());
+    for (auto tasks = passes.next(0); !tasks.empty(); tasks = passes.next(seconds_since(start))) {
+        progress.begin(passes.share_before(), passes.share_after(), work_of(tasks));
+        workers.run(tasks, progress);
+        const Image image = develop(film, integrator);
+        workers.execute([&] {
+            tbb::parallel_for(std::size_t{0}, errors.size(), [&](std::size_t i) {
+                errors[i] = error_of_tile(film, integrator, image, passes.regions()[i]);
+            });
+        });
+        passes.learn(errors);
+        if (options.pass_done) options.pass_done(passes.error());
+    }
+    stats.error = passes.error();
+    stats.samples_per_pixel = passes.mean_samples();
+    stats.least_samples = passes.least_samples();
+    stats.most_samples = passes.most_samples();
+    stats.passes = passes.count();
+    stats.stopped_by = passes.reason();
+}
 
 }  // namespace
 
 RenderResult render(const Plan& plan, const RenderOptions& options) {
-    if (!isa_supported(options.isa))
-        throw std::invalid_argument("this machine does not run " + std::string(isa_name(options.isa)));
-    const RenderSettings& settings = plan.settings();
-    const unsigned threads =
-        options.threads != 0 ? options.threads : static_cast<unsigned>(tbb::info::default_concurrency());
-    const auto& stages = kernels::stages_for(options.isa);
-    const std::uint32_t wave_size = choose_wave_size(plan, options.wave_size);
-
-    Film film(settings.width, settings.height);
-    const Tiling tiles(settings.width, settings.height, plan.samples());
-    const Pattern pattern = whole_pattern(plan);
-    tbb::enumerable_thread_specific<Wave> waves([&] { return Wave(plan, stages, film, wave_size); });
-    Progress progress(options, tiles.size());
-    std::atomic<bool> stopped = false;
-
-    const auto start = std::chrono::steady_clock::now();
-    const std::uint64_t first_tick = TickClock::now();
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    tbb::task_arena arena(static_cast<int>(threads));
-    arena.execute([&] {
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, tiles.size(), 1),
-            [&](const tbb::blocked_range<std::size_t>& range) {
-                Wave& wave = waves.local();
-                for (std::size_t i = range.begin(); i != range.end() && !stopped; ++i) {
-                    const std::uint64_t before = wave.counters.closest_rays + wave.counters.shadow_rays;
-                    if (!render_tile(wave, tiles[i], pattern, options.interrupted)) stopped = true;
-                    progress.tile_done(wave.counters.closest_rays + wave.counters.shadow_rays - before);
-                }
-            },
-            tbb::simple_partitioner());
-    });
-    if (stopped) throw Interrupted{};
-
-    RenderStats stats;
-    stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const double seconds_per_tick = stats.seconds / static_cast<double>(TickClock::now() - first_tick);
-    stats.isa = stages.isa;
-    stats.threads = threads;
-    stats.wave_size = wave_size;
-    stats.samples_per_pixel = plan.samples();
-    stats.queue_bytes = WaveStorage::bytes(plan.needs(), settings.depth, wave_size);
-    stats.bytes_per_ray = stats.queue_bytes / wave_size;
-    for (const Wave& wave : waves) {
-        stats.profile.add(profile_of(wave.counters, seconds_per_tick));
-        stats.closest_rays += wave.counters.closest_rays;
-        stats.shadow_rays += wave.counters.shadow_rays;
-        stats.dropped_samples += wave.counters.dropped_samples;
-    }
-    stats.profile.others = stats.seconds * threads;
-    for (std::size_t s = 0; s < stage_names.size(); ++s)
-        stats.profile.others -= stats.profile.total(static_cast<Stage>(s)).seconds;
+    Film film(plan.settings().width, plan.settings().height);
+    Workers workers(plan, options, film);
+    Progress progress(options);
     RenderResult result;
-    result.image = develop(film, settings.integrator);
-    if (options.standard_error) result.standard_error = develop_error(film, settings.integrator);
-    arena.execute([&] { stats.error = estimate_error(film, settings.integrator, result.image); });
-    result.stats = stats;
+    RenderStats& stats = result.stats;
+
+    if (options.goal.asked()) {
+        render_in_passes(plan, options, film, workers, progress, stats);
+    } else {
+        render_at_once(plan, workers, progress, stats);
+    }
+    workers.report(stats);
+
+    const Integrator integrator = plan.settings().integrator;
+    result.image = develop(film, integrator);
+    if (options.standard_error) result.standard_error = develop_error(film, integrator);
+    if (!options.goal.asked()) workers.execute([&] { stats.error = estimate_error(film, integrator, result.image); });
     return result;
 }
 

@@ -8,6 +8,7 @@
 #include "film/error.hpp"
 #include "kernels/isa.hpp"
 #include "plan/plan.hpp"
+#include "wavefront/goal.hpp"
 #include "wavefront/profile.hpp"
 
 namespace orrery {
@@ -20,6 +21,9 @@ struct RenderOptions {
     std::function<void(double fraction, std::uint64_t rays)> progress;
     /// Polled between waves; true abandons the render, which then throws Interrupted. May be empty.
     std::function<bool()> interrupted;
+    Goal goal = {};  ///< where it asks for something, samples are taken until that is there and not as the plan says
+    /// Called between passes with the error so far, where there is a goal. May be empty.
+    std::function<void(const ImageError&)> pass_done = {};
     bool standard_error = false;  ///< also the error of every pixel, as an image
 };
 
@@ -29,9 +33,12 @@ struct RenderStats {
     Isa isa = Isa::sse2;  ///< the one that ran
     unsigned threads = 0;
     std::uint32_t wave_size = 0;
-    std::uint32_t samples_per_pixel = 0;  ///< really taken (stratified rounds down to a square)
-    double seconds = 0;                   ///< wall time of the rendering proper
-    std::uint64_t closest_rays = 0;       ///< counted where they are cast
+    double samples_per_pixel = 0;  ///< really taken (stratified rounds down to a square), the mean over pixels
+    std::uint32_t least_samples = 0, most_samples = 0;  ///< of any pixel
+    std::uint32_t passes = 1;
+    StopReason stopped_by = StopReason::samples;
+    double seconds = 0;              ///< wall time of the rendering proper
+    std::uint64_t closest_rays = 0;  ///< counted where they are cast
     std::uint64_t shadow_rays = 0;
     Profile profile;
     std::uint64_t bytes_per_ray = 0;    ///< all queue storage per (pixel, sample) pair of a wave
@@ -46,8 +53,9 @@ struct RenderResult {
     RenderStats stats;
 };
 
-/// Renders with the settings of the scene the plan was made from. Deterministic: the same plan gives the same bytes for
-/// any thread count and wave size. Throws std::invalid_argument on an unsupported ISA, Interrupted as asked.
+/// Renders with the settings of the scene the plan was made from. Deterministic: the same plan and goal give the same
+/// bytes for any thread count and wave size, unless the goal is a time. Throws std::invalid_argument on an unsupported
+/// ISA, Interrupted as asked.
 RenderResult render(const Plan& plan, const RenderOptions& options);
 
 }  // namespace orrery

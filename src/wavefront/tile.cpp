@@ -71,6 +71,13 @@ std::uint32_t fill(Wave& wave, std::uint32_t x, std::uint32_t y, const Pattern& 
 
 }  // namespace
 
+std::uint32_t Tile::pixels() const {
+    const std::uint32_t all_pixels = (x1 - x0) * (y1 - y0);
+    if (colour == Colour::all) return all_pixels;
+    // Fields of the colour of the top left one are the half, rounded up.
+    return has(x0, y0) ? (all_pixels + 1) / 2 : all_pixels / 2;
+}
+
 std::uint32_t choose_wave_size(const Plan& plan, std::uint32_t asked) {
     std::uint32_t size = asked != 0 ? std::min(asked, 1u << 20) : default_wave_size;
     while (asked == 0 && size > kernels::widest &&
@@ -79,10 +86,16 @@ std::uint32_t choose_wave_size(const Plan& plan, std::uint32_t asked) {
     return size;
 }
 
-bool render_tile(Wave& wave, const Tile& tile, const Pattern& pattern, const std::function<bool()>& interrupted) {
+bool render_tile(Wave& wave, const Task& task, const std::function<bool()>& interrupted) {
+    const auto& [tile, pattern] = task;
+    const RenderSettings& settings = wave.plan.settings();
+    wave.camera = wave.plan.camera();
+    wave.camera.cell_width = static_cast<float>(2 * wave.plan.half_width() / settings.width / pattern.strata);
+    wave.camera.cell_height = static_cast<float>(-2 * wave.plan.half_height() / settings.height / pattern.strata);
     wave.contrasts.begin(pattern.strata, pattern.visits > 1);
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
+            if (!tile.has(x, y)) continue;
             for (std::uint32_t sample = 0; sample < pattern.samples();) {
                 if (wave.count == wave.storage.slot_count) {
                     if (interrupted && interrupted()) return false;

@@ -29,12 +29,14 @@ struct Wave {
         : plan(the_plan),
           stages(the_stages),
           film(the_film),
+          camera(the_plan.camera()),
           storage(the_plan.needs(), the_plan.settings().depth, slots) {}
 
     const Plan& plan;
     const kernels::Stages<float>& stages;
     Film& film;
-    Contrasts contrasts;  ///< of the tile being rendered
+    kernels::CameraTable<float> camera;  ///< with the cells of the task being rendered
+    Contrasts contrasts;                 ///< of that task
     WaveStorage storage;
     WaveCounters counters;
     std::uint32_t count = 0;  ///< slots in use

@@ -12,6 +12,7 @@ namespace orrery::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 using Arguments = std::vector<std::string>;
 using Json = nlohmann::json;
@@ -166,6 +167,53 @@ TEST(Options, Avx2AndAvx512GiveTheSameBytes) {
 
 TEST(Options, PrecisionFloatIsTheDefault) {
     EXPECT_EQ(image_of("tests/lens.json", {"--precision", "float"}), image_of("tests/lens.json", {}));
+}
+
+TEST(Options, ErrorIsReachedAndReported) {
+    const Json stats = stats_of("tests/diffuse_area.json", {"--error", "6%", "--size", "24x24"});
+    EXPECT_EQ(stats["stopped_by"], "error");
+    EXPECT_EQ(stats["goal"], Json::parse(R"({"error": 0.06, "adaptive": true})"));
+    EXPECT_LE(stats["relative_error"]["estimate"], 0.06);
+    EXPECT_GE(stats["passes"], 3);
+    EXPECT_LE(stats["samples_of_any_pixel"][0], stats["samples_per_pixel"]);
+    EXPECT_GE(stats["samples_of_any_pixel"][1], stats["samples_per_pixel"]);
+    EXPECT_EQ(stats_of("tests/diffuse_area.json", {"--error", "0.06", "--size", "24x24"})["samples_per_pixel"],
+              stats["samples_per_pixel"]);
+}
+
+TEST(Options, SppIsACeilingToError) {
+    const Json stats = stats_of("tests/diffuse_area.json", {"--error", "0.1%", "--spp", "50", "--adaptive", "off"});
+    EXPECT_EQ(stats["stopped_by"], "samples");
+    EXPECT_LE(stats["samples_per_pixel"], 50);
+    EXPECT_EQ(stats["samples_of_any_pixel"][0], stats["samples_of_any_pixel"][1]);
+}
+
+TEST(Options, TimeIsKept) {
+    const Json stats = stats_of("tests/diffuse_area.json", {"--time", "200ms"});
+    EXPECT_EQ(stats["stopped_by"], "time");
+    EXPECT_EQ(stats["goal"]["seconds"], 0.2);
+    EXPECT_GT(stats["seconds"], 0.1);
+}
+
+TEST(Options, AnImageThatStoppedByItselfSaysHowToRepeatIt) {
+    const std::string image = image_of("tests/diffuse_area.json", {"--error", "9%", "--spp", "900"}, "x.png");
+    EXPECT_THAT(image, HasSubstr("--error 0.09 --spp 900 --adaptive on"));
+    EXPECT_EQ(image_of("tests/diffuse_area.json",
+                       {"--error", "9%", "--spp", "900", "--threads", "1", "--wave-size", "33"}, "x.png"),
+              image);
+}
+
+TEST(Options, TheSummarySaysWhyItStopped) {
+    const TemporaryFolder folder;
+    const auto said = [&](Arguments options) {
+        Arguments arguments = {"render", scene_file("tests/diffuse_area.json"), "-o", (folder / "x.ppm").string()};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return orrery(arguments).error;
+    };
+    EXPECT_THAT(said({"--error", "9%"}), HasSubstr("stopped at the 9 % asked"));
+    EXPECT_THAT(said({"--error", "0.1%", "--spp", "32"}), HasSubstr("stopped by --spp, not yet at the 0.1 % asked"));
+    EXPECT_THAT(said({"--time", "50ms"}), HasSubstr("stopped by --time: another run gives another image"));
+    EXPECT_THAT(said({"--spp", "32"}), Not(HasSubstr("stopped")));
 }
 
 TEST(Options, QuietSilencesWarningsAndNotErrors) {

@@ -36,11 +36,27 @@ TEST(Usage, HelpAndVersionGoToStandardOutput) {
 
 TEST(Usage, RenderHelpNamesEveryOptionItsDefaultAndAnExample) {
     const std::string help = orrery({"render", "--help"}).output;
-    for (const char* option :
-         {"-o,--output FILE", "--integrator pt|wrt|depth", "--spp N", "--depth N", "--size WxH", "--seed N",
-          "--threads N", "--estimator uniform|stratified", "--transport naive|nee|mis", "--light-sampling area|cone",
-          "--roulette on|off", "--tonemap sigmoid|linear|none", "--isa auto|scalar|sse2|avx2|avx512",
-          "--precision float", "--stats FILE.json", "--quiet", "--wave-size N"})
+    for (const char* option : {"-o,--output FILE",
+                               "--integrator pt|wrt|depth",
+                               "--spp N",
+                               "--depth N",
+                               "--size WxH",
+                               "--seed N",
+                               "--threads N",
+                               "--estimator uniform|stratified",
+                               "--transport naive|nee|mis",
+                               "--light-sampling area|cone",
+                               "--roulette on|off",
+                               "--tonemap sigmoid|linear|none",
+                               "--isa auto|scalar|sse2|avx2|avx512",
+                               "--precision float",
+                               "--stats FILE.json",
+                               "--quiet",
+                               "--wave-size N",
+                               "--error SHARE",
+                               "--time TIME",
+                               "--adaptive on|off",
+                               "--error-image FILE"})
         EXPECT_THAT(help, HasSubstr(option));
     EXPECT_GE(count_of("(default: ", help), 14u);
     EXPECT_THAT(help, HasSubstr("Example"));
@@ -99,6 +115,14 @@ TEST(Usage, NumbersAreWholeAndInRange) {
 TEST(Usage, SizesAreTwoNumbers) {
     for (const char* text : {"640", "0x480", "640x0", "65537x1", "640x480x3", "x", "", "640X480", "640 x 480"})
         EXPECT_THAT(refusal_with({"--size", text}), AllOf(HasSubstr("WIDTHxHEIGHT"), HasSubstr("1 to 65536")));
+}
+
+TEST(Usage, StopsAreSharesAndTimes) {
+    for (const char* text : {"0", "-1%", "101%", "1.5", "1 %", "%", "nan", "inf", "1e-3", "0x1", "1%%", ""})
+        EXPECT_THAT(refusal_with({"--error", text}), HasSubstr("1% or 0.01")) << text;
+    for (const char* text : {"30", "0s", "-1s", "1d", "s", "1 s", "1e3s", "nans", "9000000h", ""})
+        EXPECT_THAT(refusal_with({"--time", text}), HasSubstr("30s, 2m, 1.5h or 500ms")) << text;
+    EXPECT_THAT(refusal_with({"--adaptive", "on"}), HasSubstr("expected --error or --time"));
 }
 
 TEST(Usage, ChoicesNameWhatThereIs) {

@@ -1,0 +1,214 @@
+#include "wavefront/passes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace orrery {
+namespace {
+
+/// Regions follow the error, so they are small; with a few dozen samples a pixel, half of one fills a wave.
+constexpr std::uint32_t region_side = 16;
+
+// A few black samples must not look like an image without error.
+constexpr std::uint32_t fewest_passes = 3;
+constexpr std::uint32_t fewest_samples = 32;
+/// Samples of an image without any noise until that is believed.
+constexpr double noiseless_samples = 1 << 22;
+
+/// Share of the work that is spread evenly, to learn from.
+constexpr double pilot_share = 0.125;
+/// The error to aim at, over that asked: or else the last step would be taken again and again.
+constexpr double aim = 0.98;
+/// How far beyond the error asked the interval's upper end may be. Images of some thousand pixels are always better
+/// known; of smaller ones, or where rare paths carry the light, the estimate alone could be lucky.
+constexpr double tolerance = 1.2;
+/// Weight of the whole image's scatter beside a region's own, which may have missed what is rare.
+constexpr double prior = 0.05;
+/// Share of the time that is worth starting another pass for.
+constexpr double worth_starting = 0.02;
+/// Sample numbers have 32 bits, and a pass at most doubles them.
+constexpr std::uint32_t most_samples_ever = 1u << 30;
+
+}  // namespace
+
+Passes::Passes(const Plan& plan, const Goal& goal)
+    : goal_(goal), stratified_(plan.settings().estimator == Estimator::stratified) {
+    const Tiling tiling(plan.settings().width, plan.settings().height, region_side);
+    for (std::size_t i = 0; i < tiling.size(); ++i) {
+        for (const Colour colour : {Colour::black, Colour::white}) {
+            Tile half = tiling[i];
+            half.colour = colour;
+            const auto pixels = static_cast<double>(half.pixels());
+            if (pixels == 0) continue;
+            tiles_.push_back(half);
+            regions_.push_back({.pixels = pixels, .taken = 0, .scatter = pixels});
+            all_pixels_ += pixels;
+        }
+    }
+    taken_.resize(tiles_.size());
+}
+
+std::uint32_t Passes::least_samples() const { return *std::ranges::min_element(taken_); }
+std::uint32_t Passes::most_samples() const { return *std::ranges::max_element(taken_); }
+
+std::size_t Passes::other_half(std::size_t region) const {
+    const auto same_tile = [&](std::size_t i) {
+        return i < tiles_.size() && tiles_[i].x0 == tiles_[region].x0 && tiles_[i].y0 == tiles_[region].y0;
+    };
+    if (same_tile(region + 1)) return region + 1;
+    if (region > 0 && same_tile(region - 1)) return region - 1;
+    return region;  // a tile of one pixel
+}
+
+bool Passes::enough_known() const { return count_ >= fewest_passes && least_samples() >= fewest_samples; }
+
+void Passes::learn(const std::vector<ErrorSums>& errors) {
+    ErrorSums sums;
+    for (const ErrorSums& error : errors) sums.add(error);
+    error_ = sums.error();
+
+    if (in_pilot_) learn_scatter(errors);
+    left_ = 0;
+    for (const Region& region : regions_) left_ += region.scatter / region.taken;
+}
+
+void Passes::learn_scatter(const std::vector<ErrorSums>& errors) {
+    const auto scatter = [&](std::size_t i) { return errors[i].relative.sum() * regions_[i].taken; };
+    double all = 0;
+    for (std::size_t i = 0; i < errors.size(); ++i) all += scatter(i);
+    const bool known = all > 0 && std::isfinite(all);
+    const double mean = known ? all / all_pixels_ : 1;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        const std::size_t other = other_half(i);
+        const double own = known && goal_.adaptive ? scatter(other) / regions_[other].pixels : mean;
+        regions_[i].scatter = regions_[i].pixels * (own + prior * (mean - own));
+    }
+}
+
+bool Passes::error_reached() const {
+    if (goal_.error <= 0 || !enough_known()) return false;
+    if (error_.relative.value == 0) return total_ >= noiseless_samples;
+    return error_.relative.value <= goal_.error && error_.relative.high <= tolerance * goal_.error;
+}
+
+std::optional<StopReason> Passes::reached(double elapsed) const {
+    if (error_reached()) return StopReason::error;
+    const double time_left = goal_.seconds - elapsed;
+    if (goal_.seconds > 0 && count_ > 0 && time_left < worth_starting * goal_.seconds) return StopReason::time;
+    if (most_samples() >= most_samples_ever) return StopReason::samples;
+    return std::nullopt;
+}
+
+/// What allocate() should leave of the regions' scatter so that the error is what was asked and its interval, as wide
+/// in proportion as now, no wider than tolerated. 0 where no error is asked or none is known.
+double Passes::target() const {
+    const RootMeanSquare& now = error_.relative;
+    if (goal_.error <= 0 || now.value <= 0 || !std::isfinite(now.high)) return 0;
+    const double error = aim * goal_.error * std::min(1.0, tolerance * now.value / now.high);
+    return left_ * error * error / (now.value * now.value);
+}
+
+double Passes::ceiling() const {
+    return goal_.samples > 0 ? static_cast<double>(goal_.samples) * all_pixels_
+                             : std::numeric_limits<double>::infinity();
+}
+
+/// What there is room for, over pixels: the ceiling or what the time left is enough for.
+double Passes::room(double elapsed) const {
+    if (goal_.seconds <= 0 || count_ == 0) return ceiling();
+    return std::min(ceiling(), total_ + rate_ * (goal_.seconds - elapsed));
+}
+
+/// As much again as all before: few barriers and fine strata, and never far beyond what is needed. The first is the
+/// least that tells an error where time is short.
+double Passes::total_of_next() const {
+    if (count_ > 0) return 2 * total_;
+    return (goal_.seconds > 0 ? 2 : 8) * all_pixels_;
+}
+
+/// What is done when `total` samples are taken at `elapsed`, by whatever will stop the render first.
+double Passes::share(double total, double elapsed) const {
+    double share = total / ceiling();
+    if (goal_.seconds > 0) share = std::max(share, elapsed / goal_.seconds);
+    if (target() > 0) {
+        const auto needed = allocate(regions_, target(), std::numeric_limits<double>::infinity());
+        share = std::max(share, total / total_samples(regions_, needed));
+    }
+    return std::min(share, 1.0);
+}
+
+Pattern Passes::pattern(std::size_t region, double samples, bool keep_below) const {
+    const auto whole = [&](double x) { return static_cast<std::uint32_t>(keep_below ? x + 1e-9 : std::round(x)); };
+    const double pairs = std::max(samples, 0.0) / 2;
+    return stratified_ ? Pattern{whole(std::sqrt(pairs)), 2, taken_[region]}
+                       : Pattern{1, 2 * whole(pairs), taken_[region]};
+}
+
+/// Samples, over pixels.
+double Passes::size(const std::vector<Pattern>& pass) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < pass.size(); ++i) sum += regions_[i].pixels * pass[i].samples();
+    return sum;
+}
+
+/// What is wanted, by region, as near as strata allow. To round down is for a limit: else it would leave ever
+/// smaller rests.
+std::vector<Pattern> Passes::patterns(const std::vector<double>& wanted, bool keep_below) const {
+    std::vector<Pattern> list;
+    for (std::size_t i = 0; i < tiles_.size(); ++i)
+        list.push_back(pattern(i, wanted[i] - regions_[i].taken, keep_below));
+    return list;
+}
+
+/// Samples per pixel by region after the next pass, of `limit` in all.
+std::vector<double> Passes::wanted(double limit) const {
+    if (in_pilot_) return std::vector<double>(regions_.size(), limit / all_pixels_);
+    std::vector<double> samples = allocate(regions_, target(), limit);
+    // Stratified, an edge's error falls faster than foretold: no more than twice as many before the next look.
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = std::min(samples[i], 2 * regions_[i].taken);
+    return samples;
+}
+
+std::vector<Task> Passes::next(double elapsed) {
+    if (count_ > 0) rate_ = added_ / std::max(elapsed - started_, 1e-6);
+    if (const auto reason = reached(elapsed)) {
+        reason_ = *reason;
+        return {};
+    }
+    if (enough_known() && share(total_, elapsed) >= pilot_share) in_pilot_ = false;
+    const double limit = room(elapsed);
+    const std::vector<double> samples = wanted(std::min(limit, total_of_next()));
+    std::vector<Pattern> pass = patterns(samples, false);
+    if (total_ + size(pass) > limit) pass = patterns(samples, true);
+    if (size(pass) == 0) {
+        const bool room_for_all = total_ + 2 * all_pixels_ <= limit;
+        if (!room_for_all && count_ > 0) {
+            reason_ = limit < ceiling() ? StopReason::time : StopReason::samples;
+            return {};
+        }
+        // All were so near to what they should have that it rounded to nothing: the least that tells an error, for
+        // all. A ceiling of one sample leaves nothing to tell.
+        for (std::size_t i = 0; i < pass.size(); ++i) pass[i] = {1, room_for_all ? 2u : 1u, taken_[i]};
+    }
+    return begin(pass, elapsed);
+}
+
+std::vector<Task> Passes::begin(const std::vector<Pattern>& pass, double elapsed) {
+    share_before_ = share(total_, elapsed);
+    std::vector<Task> tasks;
+    added_ = size(pass);
+    for (std::size_t i = 0; i < pass.size(); ++i) {
+        if (pass[i].samples() == 0) continue;
+        tasks.push_back({tiles_[i], pass[i]});
+        taken_[i] += pass[i].samples();
+        regions_[i].taken = taken_[i];
+    }
+    total_ += added_;
+    share_after_ = share(total_, rate_ > 0 ? elapsed + added_ / rate_ : elapsed);
+    started_ = elapsed;
+    ++count_;
+    return tasks;
+}
+
+}  // namespace orrery
