@@ -30,54 +30,59 @@ kernels::Vec3<Real> unit_length(const Double3& v) {
     return {static_cast<Real>(exact.x), static_cast<Real>(exact.y), static_cast<Real>(exact.z)};
 }
 
-class Gap {
+/// W: the oracle's numbers.
+template <class W>
+class GapOf {
 public:
     template <class Real>
-    Gap(const Ray<Real>& ray, const Ball<Real>& ball)
-        : f_(widen(ball.centre) - widen(ray.origin)),
-          d_(widen(ray.direction)),
-          radius_(static_cast<Wide>(ball.radius)),
+    GapOf(const Ray<Real>& ray, const Ball<Real>& ball)
+        : f_(widen<W>(ball.centre) - widen<W>(ray.origin)),
+          d_(widen<W>(ray.direction)),
+          radius_(static_cast<W>(ball.radius)),
           closest_(dot(f_, d_) / dot(d_, d_)),
-          unit_(static_cast<Wide>(rounding_unit<Real>) * (length(f_) + radius_)) {}
+          unit_(static_cast<W>(rounding_unit<Real>) * (length(f_) + radius_)) {}
 
-    Wide at(Wide t) const { return finite(t) ? length(t * d_ - f_) - radius_ : t; }
-    Wide least(Wide from, Wide to) const { return at(std::clamp(closest_, from, std::max(from, to))); }
-    Wide greatest(Wide from, Wide to) const { return std::max(at(from), at(to)); }
+    W at(W t) const { return finite(t) ? length(t * d_ - f_) - radius_ : t; }
+    W least(W from, W to) const { return at(std::clamp(closest_, from, std::max(from, to))); }
+    W greatest(W from, W to) const { return std::max(at(from), at(to)); }
 
     /// "From `from` to `to` the ray crosses no surface": it stays outside or it stays inside.
-    Wide of_miss(Wide from, Wide to) const {
-        const Wide outside = std::max(Wide(0), -least(from, to)), inside = std::max(Wide(0), greatest(from, to));
+    W of_miss(W from, W to) const {
+        const W outside = std::max(W(0), -least(from, to)), inside = std::max(W(0), greatest(from, to));
         return std::min(outside, inside) / unit_;
     }
     /// "It crosses one."
-    Wide of_crossing(Wide from, Wide to) const {
-        const Wide low = least(from, to), high = greatest(from, to);
-        return std::max(Wide(0), std::max(low, -high)) / unit_;
+    W of_crossing(W from, W to) const {
+        const W low = least(from, to), high = greatest(from, to);
+        return std::max(W(0), std::max(low, -high)) / unit_;
     }
     /// "It first crosses the surface at t, from within or from outside."
-    Wide of_hit(Wide from, Wide t, bool inside) const {
-        const Wide side = inside ? greatest(from, t) : -least(from, t);
+    W of_hit(W from, W t, bool inside) const {
+        const W side = inside ? greatest(from, t) : -least(from, t);
         return std::max(magnitude(at(t)), std::max(side, from - t)) / unit_;
     }
 
+    W unit() const { return unit_; }
+
 private:
-    Wide3 f_, d_;
-    Wide radius_, closest_, unit_;
+    Triple<W> f_, d_;
+    W radius_, closest_, unit_;
 };
+using Gap = GapOf<Wide>;
 
 /// Of whether something is met at all.
-template <class Real>
-double error_of_verdict(const Gap& gap, const Ray<Real>& ray, bool met) {
-    const auto from = static_cast<Wide>(ray.t_min), to = static_cast<Wide>(ray.t_max);
+template <class Real, class W>
+double error_of_verdict(const GapOf<W>& gap, const Ray<Real>& ray, bool met) {
+    const auto from = static_cast<W>(ray.t_min), to = static_cast<W>(ray.t_max);
     return static_cast<double>(met ? gap.of_crossing(from, to) : gap.of_miss(from, to));
 }
 
 /// Of a hit: its distance, its side, and that nothing of the sphere comes before it.
-template <class Real>
-double error_of_hit(const Gap& gap, const Ray<Real>& ray, const Hit<Real>& hit) {
-    const auto t = static_cast<Wide>(hit.t);
-    if (!finite(t) || t > static_cast<Wide>(ray.t_max)) return std::numeric_limits<double>::infinity();
-    return static_cast<double>(gap.of_hit(static_cast<Wide>(ray.t_min), t, hit.inside()));
+template <class Real, class W>
+double error_of_hit(const GapOf<W>& gap, const Ray<Real>& ray, const Hit<Real>& hit) {
+    const auto t = static_cast<W>(hit.t);
+    if (!finite(t) || t > static_cast<W>(ray.t_max)) return std::numeric_limits<double>::infinity();
+    return static_cast<double>(gap.of_hit(static_cast<W>(ray.t_min), t, hit.inside()));
 }
 
 }  // namespace orrery::extremes

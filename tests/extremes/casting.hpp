@@ -39,8 +39,9 @@ Hit<typename V::Real> cast(const kernels::SphereTable<typename V::Real>& spheres
     using F = typename V::F;
     using U = typename V::U;
     using Word = typename V::Word;
-    const auto best = kernels::closest_hit<V>(spheres, broadcast<V>(ray.origin), broadcast<V>(ray.direction),
-                                              U(Word{ray.left}), start_of<V, Start>(ray.t_min), F(ray.t_max));
+    const auto best = kernels::closest_hit<V>(spheres, kernels::AllSpheres{spheres.count}, broadcast<V>(ray.origin),
+                                              broadcast<V>(ray.direction), U(Word{ray.left}),
+                                              start_of<V, Start>(ray.t_min), F(ray.t_max));
     return {first_lane(F(best.num / best.den)), static_cast<std::uint32_t>(first_lane(best.id))};
 }
 
@@ -50,9 +51,9 @@ bool occluded(const kernels::SphereTable<typename V::Real>& spheres, const Ray<t
     using U = typename V::U;
     using Word = typename V::Word;
     using kernels::any;
-    return any(kernels::any_hit<V>(spheres, broadcast<V>(ray.origin), broadcast<V>(ray.direction), U(Word{ray.left}),
-                                   start_of<V, Start>(ray.t_min), F(1) / F(ray.t_max), kernels::no_sphere,
-                                   typename V::M(true)));
+    return any(kernels::any_hit<V>(spheres, kernels::AllSpheres{spheres.count}, broadcast<V>(ray.origin),
+                                   broadcast<V>(ray.direction), U(Word{ray.left}), start_of<V, Start>(ray.t_min),
+                                   F(1) / F(ray.t_max), kernels::no_sphere, typename V::M(true)));
 }
 
 }  // namespace orrery::extremes

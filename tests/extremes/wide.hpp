@@ -1,5 +1,6 @@
 // The oracle's numbers: IEEE quadruple precision, 113 bits, next to which the rounding of floats and doubles is exact
-// input. Wider in range than either, so that nothing the tests square overflows.
+// input. Wider in range than either, so that nothing the tests square overflows. Where millions of rays in float are
+// judged, the 64 bits of long double do: 2^-40 of a float's rounding.
 #pragma once
 
 #include <cmath>
@@ -14,33 +15,59 @@ __extension__ typedef __float128 Wide;
 using Wide = long double;  // quadruple where the type above is missing (AArch64)
 #endif
 
-struct Wide3 {
-    Wide x, y, z;
+template <class W>
+struct Triple {
+    W x, y, z;
 };
+using Wide3 = Triple<Wide>;
 
-template <class Real>
-Wide3 widen(const kernels::Vec3<Real>& v) {
-    return {static_cast<Wide>(v.x), static_cast<Wide>(v.y), static_cast<Wide>(v.z)};
+template <class W = Wide, class Real>
+Triple<W> widen(const kernels::Vec3<Real>& v) {
+    return {static_cast<W>(v.x), static_cast<W>(v.y), static_cast<W>(v.z)};
 }
 
-inline Wide3 operator+(const Wide3& a, const Wide3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Wide3 operator-(const Wide3& a, const Wide3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Wide3 operator*(Wide s, const Wide3& v) { return {s * v.x, s * v.y, s * v.z}; }
-inline Wide dot(const Wide3& a, const Wide3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Wide3 cross(const Wide3& a, const Wide3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+template <class W>
+Triple<W> operator+(const Triple<W>& a, const Triple<W>& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class W>
+Triple<W> operator-(const Triple<W>& a, const Triple<W>& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class W>
+Triple<W> operator*(W s, const Triple<W>& v) {
+    return {s * v.x, s * v.y, s * v.z};
+}
+template <class W>
+W dot(const Triple<W>& a, const Triple<W>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-inline Wide magnitude(Wide x) { return x < 0 ? -x : x; }
-inline bool finite(Wide x) { return x - x == 0; }
+template <class W>
+W magnitude(W x) {
+    return x < 0 ? -x : x;
+}
+template <class W>
+bool finite(W x) {
+    return x - x == 0;
+}
 
+inline long double root(long double x) { return std::sqrt(x); }
+#if defined(__SIZEOF_FLOAT128__)
 /// One step of Newton's from 64 bits gives the rest.
 inline Wide root(Wide x) {
     if (!(x > 0) || !finite(x)) return x;
-    const Wide s = std::sqrt(static_cast<long double>(x));
+    const Wide s = root(static_cast<long double>(x));
     return (s + x / s) / 2;
 }
-inline Wide length(const Wide3& v) { return root(dot(v, v)); }
-inline Wide3 unit(const Wide3& v) { return (1 / length(v)) * v; }
+#endif
+template <class W>
+W length(const Triple<W>& v) {
+    return root(dot(v, v));
+}
+template <class W>
+Triple<W> unit(const Triple<W>& v) {
+    return (1 / length(v)) * v;
+}
 
 }  // namespace orrery::extremes
