@@ -98,15 +98,16 @@ void emission_noted(const Spheres& spheres, const EmissionTable<float>& lights, 
     session->forward.emission(spheres, lights, strategy, rays, hits, count, slots);
 }
 
-void sort_noted(const Spheres& spheres, std::uint32_t kinds, const Rays& rays, const Hits& hits, std::uint32_t count,
+bool sort_noted(const Spheres& spheres, std::uint32_t kinds, const Rays& rays, const Hits& hits, std::uint32_t count,
                 const Rays& sorted_rays, const Hits& sorted_hits, Runs& runs) {
     note("sort", count, 2 * (bytes_of(rays) + bytes_of(hits)) + vector3 + word, ray_part | hit_part, count, sorted_part,
          [spheres, kinds, count](const Table& s, WaveStorage& w) {
              Runs found;
-             s.sort_by_scattering(spheres, kinds, w.rays, w.hits, count, w.sorted_rays, w.sorted_hits, found);
-             return found;
+             const bool moved =
+                 s.sort_by_scattering(spheres, kinds, w.rays, w.hits, count, w.sorted_rays, w.sorted_hits, found);
+             return moved ? found : Runs{};
          });
-    session->forward.sort_by_scattering(spheres, kinds, rays, hits, count, sorted_rays, sorted_hits, runs);
+    return session->forward.sort_by_scattering(spheres, kinds, rays, hits, count, sorted_rays, sorted_hits, runs);
 }
 
 constexpr const char* scatter_names[scattering_count] = {"scatter diffuse", "scatter specular", "scatter glossy",

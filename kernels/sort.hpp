@@ -13,6 +13,7 @@ namespace orrery::kernels {
 template <class V>
 struct LiveHits {
     typename V::M live;
+    typename V::M met;  ///< hit something, dead or alive
     typename V::U surface;
 };
 
@@ -24,8 +25,9 @@ ORRERY_INLINE LiveHits<V> live_hits(const SphereTable<typename V::Real>& spheres
     using U = typename V::U;
     const U hit = load<U>(hits.id + i);
     const F carried = max(load<F>(rays.tr + i), max(load<F>(rays.tg + i), load<F>(rays.tb + i)));
-    const auto live = first_lanes<V>(count - i) && !words_equal(hit, U(no_sphere)) && carried != F(0);
-    return {live, lookup<U>(spheres.surface, choose(live, hit & U(no_sphere), U(0u)), spheres.count)};
+    const auto met = first_lanes<V>(count - i) && !words_equal(hit, U(no_sphere));
+    const auto live = met && carried != F(0);
+    return {live, met, lookup<U>(spheres.surface, choose(live, hit & U(no_sphere), U(0u)), spheres.count)};
 }
 
 template <class V>
@@ -35,19 +37,38 @@ ORRERY_INLINE std::uint32_t lanes_of_kind(const LiveHits<V>& hits, std::uint32_t
     return bits(hits.live && words_equal(of, U(kind)));
 }
 
-/// `kinds` has bit k set where the plan knows kind k; no other is looked for.
+/// Where nothing but one kind was hit, sorting would copy the queue: unless more than an eighth of it is misses, moving
+/// the rest costs more than to drag them along.
+ORRERY_INLINE bool is_sorted(const Runs& runs, std::uint32_t count) {
+    std::uint32_t present = 0, hits = 0;
+    for (const Range& run : runs.run) {
+        present += run.count != 0 ? 1u : 0u;
+        hits += run.count;
+    }
+    return present == 0 || (present == 1 && hits >= count - count / 8);
+}
+
+/// Returns whether anything moved. If not, the queues are one run as they are, misses among it, as in a scene that
+/// has one way of scattering only. `kinds` has bit k set where the plan knows kind k; no other is looked for.
 template <class V>
-void sort_by_scattering(const SphereTable<typename V::Real>& spheres, std::uint32_t kinds,
+bool sort_by_scattering(const SphereTable<typename V::Real>& spheres, std::uint32_t kinds,
                         const RayQueue<typename V::Real>& rays, const HitQueue<typename V::Real>& hits,
                         std::uint32_t count, const RayQueue<typename V::Real>& sorted_rays,
                         const HitQueue<typename V::Real>& sorted_hits, Runs& runs) {
     runs = {};
+    std::uint32_t dead = 0;  // they may have hit anything, also what no kernel of the run knows
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const auto hit = live_hits<V>(spheres, rays, hits, i, count);
+        dead |= bits(hit.met) ^ bits(hit.live);
         for (std::uint32_t left = kinds; left != 0; left &= left - 1) {
             const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
             runs.run[k].count += static_cast<std::uint32_t>(std::popcount(lanes_of_kind(hit, k)));
         }
+    }
+    if (dead == 0 && is_sorted(runs, count)) {
+        for (Range& run : runs.run)
+            if (run.count != 0) run = {0, count};
+        return false;
     }
     std::uint32_t to[scattering_count];
     std::uint32_t end = 0;
@@ -66,6 +87,7 @@ void sort_by_scattering(const SphereTable<typename V::Real>& spheres, std::uint3
             to[k] += static_cast<std::uint32_t>(std::popcount(chosen));
         }
     }
+    return true;
 }
 
 }  // namespace orrery::kernels

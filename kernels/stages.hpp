@@ -27,7 +27,7 @@ struct Stages {
 
     void (*emission)(const SphereTable<Real>&, const EmissionTable<Real>&, LightStrategy, const RayQueue<Real>&,
                      const HitQueue<Real>&, std::uint32_t count, const SlotTable<Real>&);
-    void (*sort_by_scattering)(const SphereTable<Real>&, std::uint32_t kinds, const RayQueue<Real>&,
+    bool (*sort_by_scattering)(const SphereTable<Real>&, std::uint32_t kinds, const RayQueue<Real>&,
                                const HitQueue<Real>&, std::uint32_t count, const RayQueue<Real>& sorted_rays,
                                const HitQueue<Real>& sorted_hits, Runs&);
     using Scatter = void (*)(const ScatterContext<Real>&, Range, const RayQueue<Real>&, const HitQueue<Real>&,

@@ -80,10 +80,11 @@ Runs sort_hits(Wave& w, std::uint32_t rays, std::uint32_t bounce) {
     WaveStorage& s = w.storage;
     const std::uint32_t bytes = vector3 + word + 2 * (record_bytes(s.rays) + record_bytes(s.hits));
     const StageTimer timer(w, Stage::shade, bounce, {rays, bytes, w.stages.lanes, true});
-    w.stages.sort_by_scattering(w.plan.spheres(), needs.scattering, s.rays, s.hits, rays, s.sorted_rays, s.sorted_hits,
-                                runs);
-    std::swap(s.rays, s.sorted_rays);
-    std::swap(s.hits, s.sorted_hits);
+    if (w.stages.sort_by_scattering(w.plan.spheres(), needs.scattering, s.rays, s.hits, rays, s.sorted_rays,
+                                    s.sorted_hits, runs)) {
+        std::swap(s.rays, s.sorted_rays);
+        std::swap(s.hits, s.sorted_hits);
+    }
     return runs;
 }
 

@@ -1,4 +1,6 @@
 // Stage `shade`, second step: a stable counting sort by way of scattering.
+#include <algorithm>
+
 #include "kernel_test.hpp"
 #include "numbers.hpp"
 #include "owned.hpp"
@@ -61,6 +63,21 @@ protected:
         return kinds;
     }
 
+    /// What was left where it stood is a run of its only kind.
+    static void expect_is_one_run(const Wave& w, std::uint32_t known, const Runs& runs) {
+        const auto count = static_cast<std::uint32_t>(w.kind.size());
+        for (std::uint32_t k = 0; k < scattering_count; ++k) {
+            const auto wanted = static_cast<std::uint32_t>(std::ranges::count(w.kind, k));
+            if (wanted == 0 || (known >> k & 1u) == 0) {
+                EXPECT_EQ(runs.run[k].count, 0u) << "kind " << k;
+            } else {
+                EXPECT_EQ(runs.run[k].begin, 0u);
+                EXPECT_EQ(runs.run[k].count, count);
+                EXPECT_GE(wanted, count - count / 8);
+            }
+        }
+    }
+
     void expect_sorts(const Wave& w, std::uint32_t known = all_kinds, bool all_fields = true) const {
         const World world = world_of_kinds();
         const auto count = static_cast<std::uint32_t>(w.kind.size());
@@ -71,7 +88,12 @@ protected:
         const Hits hits_before = sorted_hits;
         Runs runs;
         runs.run[2] = {7, 7};  // whatever stood there
-        stages.sort_by_scattering(world.spheres, known, *w.rays, *w.hits, count, *sorted, *sorted_hits, runs);
+        const bool moved =
+            stages.sort_by_scattering(world.spheres, known, *w.rays, *w.hits, count, *sorted, *sorted_hits, runs);
+        if (!moved) {
+            EXPECT_TRUE(sorted.same_as(before, 0, capacity));
+            return expect_is_one_run(w, known, runs);
+        }
         EXPECT_TRUE(sorted.untouched_but(before, 0, capacity)) << "behind the queue's capacity";
         EXPECT_TRUE(sorted_hits.untouched_but(hits_before, 0, capacity)) << "behind the queue's capacity";
         std::uint32_t end = 0;
@@ -96,6 +118,38 @@ protected:
         }
     }
 };
+
+// Misses are dragged along while they are few. A dead ray never is: it may have hit what the run's kernel cannot read.
+TEST_P(SortTest, AQueueOfOneKindStaysWhereItIs) {
+    const World world = world_of_kinds();
+    const auto moves = [&](const std::vector<std::uint32_t>& kinds, bool dead) {
+        const Wave w = wave_of(kinds);
+        const auto count = static_cast<std::uint32_t>(kinds.size());
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (kinds[i] != absent) continue;
+            put3(w.rays->tr, w.rays->tg, w.rays->tb, i, glm::dvec3(dead ? 0 : 1));
+            w.hits->id[i] = dead ? 0 : no_sphere;
+        }
+        Rays sorted(kernels::ray_capacity(count));
+        Hits sorted_hits(kernels::ray_capacity(count));
+        Runs runs;
+        return stages.sort_by_scattering(world.spheres, all_kinds, *w.rays, *w.hits, count, *sorted, *sorted_hits,
+                                         runs);
+    };
+    std::vector<std::uint32_t> kinds(800, 2);
+    EXPECT_FALSE(moves(kinds, false));
+    for (int i = 0; i < 100; ++i) kinds[static_cast<std::size_t>(8 * i + 3)] = absent;
+    EXPECT_FALSE(moves(kinds, false)) << "an eighth are misses";
+    EXPECT_TRUE(moves(kinds, true)) << "they are dead";
+    kinds[0] = absent;
+    EXPECT_TRUE(moves(kinds, false)) << "more than an eighth";
+    kinds.assign(800, 2);
+    kinds[799] = absent;
+    EXPECT_TRUE(moves(kinds, true)) << "a single dead ray";
+    kinds[799] = 3;
+    EXPECT_TRUE(moves(kinds, false)) << "a second kind";
+    EXPECT_FALSE(moves(std::vector<std::uint32_t>(60, absent), false)) << "nothing met anything";
+}
 
 TEST_P(SortTest, StableByKind) {
     for (const std::uint32_t count : awkward_counts)
