@@ -122,6 +122,18 @@ void Plan::plan_surfaces(const std::vector<std::uint32_t>& order) {
         material_columns_[6].push_back(static_cast<float>(m.eta));
         material_columns_[7].push_back(static_cast<float>(m.roughness));
     }
+    // Lights count in the scene's order: which one a random number draws does not hang on the tree.
+    std::vector<std::uint32_t> light_of(scene_.primitives.size());
+    const auto emits = [](const Primitive& p) { return p.emission && !is_black(*p.emission); };  // switched off: none
+    for (std::size_t i = 0; i < light_of.size(); ++i) {
+        const Primitive& p = scene_.primitives[i];
+        if (!emits(p)) continue;
+        light_of[i] = static_cast<std::uint32_t>(area_lights_.size());
+        push3(emission_columns_, 0, *p.emission);
+        const auto f = [](double v) { return static_cast<float>(v); };
+        area_lights_.push_back({0, f(p.centre.x), f(p.centre.y), f(p.centre.z), f(p.radius), f(p.emission->r),
+                                f(p.emission->g), f(p.emission->b)});
+    }
     std::uint32_t index = 0;
     for (const std::uint32_t primitive : order) {
         const Primitive& p = scene_.primitives[primitive];
@@ -133,17 +145,12 @@ void Plan::plan_surfaces(const std::vector<std::uint32_t>& order) {
         const Scattering kind = scattering_of(scene_.materials[p.material], settings().integrator);
         needs_.scattering |= bit(kind);
         std::uint32_t surface = p.material | static_cast<std::uint32_t>(kind) << kernels::surface_material_bits;
-        std::uint32_t light = 0;
-        if (p.emission && !is_black(*p.emission)) {  // a light that is switched off is none
+        if (emits(p)) {
             surface |= kernels::surface_emits;
-            light = static_cast<std::uint32_t>(area_lights_.size());
-            push3(emission_columns_, 0, *p.emission);
-            const auto f = [](double v) { return static_cast<float>(v); };
-            area_lights_.push_back({index, f(p.centre.x), f(p.centre.y), f(p.centre.z), f(p.radius), f(p.emission->r),
-                                    f(p.emission->g), f(p.emission->b)});
+            area_lights_[light_of[primitive]].sphere = index;
         }
         sphere_words_[0].push_back(surface);
-        sphere_words_[1].push_back(light);
+        sphere_words_[1].push_back(light_of[primitive]);
         ++index;
     }
     pad(sphere_columns_);
