@@ -1,6 +1,8 @@
 // Axis-aligned boxes in registers, for the tree's builder.
 #pragma once
 
+#include <cstddef>
+#include <cstring>
 #include <limits>
 
 #include "plan/tree.hpp"
@@ -28,7 +30,13 @@ struct Box {
     }
 };
 
-inline Four centre_of(const BuildSphere& s) { return Four{s.x, s.y, s.z, 0}; }
-inline Four radius_of(const BuildSphere& s) { return Four{s.radius, s.radius, s.radius, 0}; }
+/// Centre and radius in one load.
+inline Four four_of(const BuildSphere& s) {
+    Four v;
+    static_assert(offsetof(BuildSphere, radius) == 3 * sizeof(float));
+    std::memcpy(&v, &s, sizeof v);
+    return v;
+}
+inline Four radius_of(Four sphere) { return __builtin_shufflevector(sphere, sphere, 3, 3, 3, 3); }
 
 }  // namespace orrery

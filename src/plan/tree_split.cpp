@@ -8,20 +8,24 @@ namespace orrery {
 
 namespace {
 
-constexpr std::size_t bin_count = 16;
+constexpr std::size_t most_bins = 16;
 
-struct Bins {
-    std::array<Box, bin_count> box;
-    std::array<std::uint32_t, bin_count> count{};
+struct Bin {
+    Box box;
+    std::uint32_t count = 0;
 };
+using Bins = std::array<Bin, most_bins>;
+
+/// A short run has no use for many planes, and looking at them is most of its cost.
+std::size_t bins_for(std::size_t spheres) { return spheres < 24 ? most_bins / 2 : most_bins; }
 
 /// Maps a centre to its bin along each axis.
 class Binning {
 public:
-    explicit Binning(const Box& centres) : low_(centres.low) {
+    Binning(const Box& centres, std::size_t bins) : low_(centres.low) {
         const Four size = centres.high - centres.low;
         for (unsigned axis = 0; axis < 3; ++axis) {
-            const float scale = bin_count * (1 - 0x1p-20f) / size[axis];
+            const float scale = static_cast<float>(bins) * (1 - 0x1p-20f) / size[axis];
             usable_[axis] = size[axis] > 0 && std::isfinite(scale) && scale > 0;
             scale_[axis] = usable_[axis] ? scale : 0;
         }
@@ -38,7 +42,7 @@ private:
 
 /// A leaf's spheres are tested at once, so that is what cost goes by.
 double cost(const Box& box, std::uint32_t spheres) {
-    return spheres == 0 ? 0 : box.area() * ((spheres + kernels::tree_width - 1) / kernels::tree_width);
+    return box.area() * ((spheres + kernels::tree_width - 1) / kernels::tree_width);
 }
 
 struct Plane {
@@ -47,23 +51,19 @@ struct Plane {
     std::size_t bin = 0;  ///< first of the high side
 };
 
-void try_planes(const Bins& bins, unsigned axis, Plane& best) {
-    std::array<double, bin_count> high_cost{};
-    Box box;
-    std::uint32_t count = 0;
-    for (std::size_t b = bin_count - 1; b > 0; --b) {
-        box.add(bins.box[b]);
-        count += bins.count[b];
-        high_cost[b] = cost(box, count);
-        if (count == 0) high_cost[b] = INFINITY;
+void try_planes(std::span<const Bin> bins, unsigned axis, Plane& best) {
+    std::array<double, most_bins> high_cost;
+    Bin high;
+    for (std::size_t b = bins.size() - 1; b > 0; --b) {
+        high.box.add(bins[b].box);
+        high.count += bins[b].count;
+        high_cost[b] = high.count > 0 ? cost(high.box, high.count) : INFINITY;
     }
-    box = {};
-    count = 0;
-    for (std::size_t b = 1; b < bin_count; ++b) {
-        box.add(bins.box[b - 1]);
-        count += bins.count[b - 1];
-        if (count == 0) continue;
-        const double total = cost(box, count) + high_cost[b];
+    Bin low;
+    for (std::size_t b = 1; b < bins.size(); ++b) {
+        low.box.add(bins[b - 1].box);
+        low.count += bins[b - 1].count;
+        const double total = low.count > 0 ? cost(low.box, low.count) + high_cost[b] : INFINITY;
         if (total < best.cost) best = {total, axis, b};
     }
 }
@@ -92,7 +92,7 @@ Cut halve(std::span<BuildSphere> spheres, const Span3& span) {
 Span3 measure(std::span<const BuildSphere> spheres) {
     Span3 span;
     for (const BuildSphere& s : spheres) {
-        const Four centre = centre_of(s), radius = radius_of(s);
+        const Four centre = four_of(s), radius = radius_of(centre);
         span.bound.add(centre - radius, centre + radius);
         span.centres.add(centre, centre);
     }
@@ -101,21 +101,23 @@ Span3 measure(std::span<const BuildSphere> spheres) {
 
 Cut cut(std::span<BuildSphere> spheres, const Span3& span, bool in_halves) {
     if (in_halves) return halve(spheres, span);
-    const Binning bin_of(span.centres);
+    const std::size_t bin_count = bins_for(spheres.size());
+    const Binning bin_of(span.centres, bin_count);
     std::array<Bins, 3> bins;
     for (const BuildSphere& s : spheres) {
-        const Four centre = centre_of(s), radius = radius_of(s);
+        const Four centre = four_of(s), radius = radius_of(centre);
         const Four low = centre - radius, high = centre + radius;
         const auto place = bin_of(centre);
         for (unsigned axis = 0; axis < 3; ++axis) {
-            const auto b = static_cast<std::size_t>(place[axis]);
-            bins[axis].box[b].add(low, high);
-            ++bins[axis].count[b];
+            // Masked for an axis that is not usable, whose place may be anything.
+            const auto b = static_cast<std::size_t>(place[axis]) % most_bins;
+            bins[axis][b].box.add(low, high);
+            ++bins[axis][b].count;
         }
     }
     Plane best;
     for (unsigned axis = 0; axis < 3; ++axis)
-        if (bin_of.usable(axis)) try_planes(bins[axis], axis, best);
+        if (bin_of.usable(axis)) try_planes(std::span(bins[axis]).first(bin_count), axis, best);
     if (!(best.cost < INFINITY)) return halve(spheres, span);
 
     // Measures both sides while it partitions: the next step begins with that.
@@ -125,7 +127,7 @@ Cut cut(std::span<BuildSphere> spheres, const Span3& span, bool in_halves) {
     std::size_t low = 0, high = spheres.size();
     while (low < high) {
         const BuildSphere s = spheres[low];
-        const Four centre = centre_of(s), radius = radius_of(s);
+        const Four centre = four_of(s), radius = radius_of(centre);
         const bool stays = bin_of(centre)[best.axis] < plane;
         Span3& side = stays ? result.low : result.high;
         side.bound.add(centre - radius, centre + radius);

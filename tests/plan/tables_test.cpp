@@ -32,6 +32,42 @@ TEST(SphereTable, HoldsPrimitivesInTheirOrder) {
     EXPECT_EQ(s.surface[2] & kernels::surface_material_mask, 0u) << "two spheres may share a material";
 }
 
+// Many spheres stand in their tree's order, and everything that speaks of a sphere by its place goes with them.
+TEST(SphereTable, HoldsManyPrimitivesInTheirTreesOrder) {
+    Scene scene = world({diffuse, specular});
+    for (int i = 0; scene.primitives.size() < 200; ++i) {
+        add_area_light(scene, dvec3{0.5 + i});
+        Primitive& p = scene.primitives.back();
+        p.centre = {(i * 37) % 101, (i * 53) % 97, (i * 71) % 89};
+        p.radius = 1.0 / 256 * (i + 1);  // tells them apart
+        p.material = static_cast<std::uint32_t>(i) % 2;
+        if (i % 3 != 0) p.emission.reset();
+    }
+    const Plan plan(scene);
+    const auto& s = plan.spheres();
+    ASSERT_EQ(s.count, 200u);
+    ASSERT_GT(s.tree.count, 0u);
+    std::uint32_t moved = 0, lights = 0;
+    for (std::uint32_t i = 0; i < scene.primitives.size(); ++i) {
+        const Primitive& p = scene.primitives[i];
+        std::uint32_t k = 0;
+        while (k < s.count && (s.radius[k] != static_cast<float>(p.radius) || s.cx[k] != p.centre.x ||
+                               s.cy[k] != p.centre.y || s.cz[k] != p.centre.z))
+            ++k;
+        ASSERT_LT(k, s.count) << "primitive " << i << " is lost";
+        moved += k != i;
+        EXPECT_EQ(s.surface[k] & kernels::surface_material_mask, p.material);
+        ASSERT_EQ(emits(plan, k), p.emission.has_value());
+        if (!p.emission) continue;
+        const auto& light = plan.area_lights()[s.light[k]];
+        EXPECT_EQ(light.sphere, k);
+        EXPECT_EQ(light.r, p.emission->r);
+        EXPECT_EQ(light.radius, s.radius[k]);
+        EXPECT_EQ(s.light[k], lights++) << "lights stand in the scene's order";
+    }
+    EXPECT_GT(moved, 100u);
+}
+
 TEST(SphereTable, SaysHowSurfacesScatter) {
     Scene scene = world({diffuse, specular, glossy, dielectric, translucent});
     {

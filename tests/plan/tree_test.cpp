@@ -188,10 +188,10 @@ TEST(Tree, IsCompact) {
     const auto nodes = static_cast<double>(grown.tree.nodes.size());
     const auto leaves = static_cast<double>(inspection.leaves.size());
     EXPECT_LE(inspection.depth, 7u) << "a full tree of full leaves would have 4";
-    EXPECT_GT((leaves + nodes - 1) / nodes, 12) << "children per node";
-    EXPECT_GT(count / leaves, 2);
-    // Four numbers and two words per sphere stand in the columns, and the tree beside them.
-    EXPECT_LT(nodes * sizeof(Node) / count + 6 * 4, 50);
+    EXPECT_GT((leaves + nodes - 1) / nodes, 9) << "children per node";
+    EXPECT_GT(count / leaves, 13) << "spheres per leaf";
+    // Six numbers and two words per sphere stand in the columns, and the tree beside them.
+    EXPECT_LT(nodes * sizeof(Node) / count + 8 * 4, 40);
 }
 
 TEST(Tree, IsTheSameForAnyNumberOfThreads) {
