@@ -22,6 +22,7 @@ std::vector<Case> in_order_of_the_table(const std::vector<Case>& cases) {
 std::vector<Case> all_cases() {
     std::vector<Case> cases;
     add_ray_and_sphere(cases);
+    add_leaving(cases);
     return in_order_of_the_table(cases);
 }
 

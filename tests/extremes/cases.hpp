@@ -24,5 +24,6 @@ struct Case {
 std::vector<Case> all_cases();
 
 void add_ray_and_sphere(std::vector<Case>& cases);
+void add_leaving(std::vector<Case>& cases);
 
 }  // namespace orrery::extremes
