@@ -37,11 +37,6 @@ ORRERY_INLINE Root<ScalarLanes<Real>> first_root(const TreeSource<Real>& source,
     return source.t_min == nullptr ? first_root<One>(line, s, FromOrigin{}, true)
                                    : first_root<One>(line, s, source.t_min[ray], true);
 }
-template <class Real>
-ORRERY_INLINE bool leaves(const TreeSource<Real>& source, std::uint32_t ray, std::uint32_t sphere) {
-    return source.left != nullptr && (source.left[ray] & no_sphere) == sphere;
-}
-
 /// A ray is cut a hair behind its closest hit, so that rounding hides no equal one.
 template <class F>
 ORRERY_INLINE F tree_limit(const F& t) {
@@ -80,19 +75,18 @@ ORRERY_INLINE void closest_in_tree(const SphereTable<typename V::Real>& spheres,
         const auto o = load3<V>(source.ox + i, source.oy + i, source.oz + i);
         const auto d = load3<V>(source.dx + i, source.dy + i, source.dz + i);
         F t = load<F>(hits.t + i);
-        U id(no_sphere);
+        U id(no_sphere), left(no_sphere);
         if (source.left != nullptr) {
-            const U left = choose(first_lanes<V>(count - i), load<U>(source.left + i), U(no_sphere));
+            left = choose(first_lanes<V>(count - i), load<U>(source.left + i), U(no_sphere));
             put_inner_roots<V>(spheres, o, d, left, t, id);
         }
-        put_tree_rays<V>(rays, i, o, d, spheres.tree.extent);
+        put_tree_rays<V>(rays, i, o, d, left & U(no_sphere), spheres.tree.extent);
         save(hits.t + i, t);
         save(hits.id + i, id);
         save(rays.limit + i, tree_limit(t));
     }
     traverse<V>(spheres, rays, count, stack,
                 [&](std::uint32_t ray, const Chord<Real>& line, std::uint32_t k) ORRERY_INLINE_LAMBDA {
-                    if (leaves(source, ray, k)) return;
                     const auto found = first_root(source, ray, line);
                     if (!found.exists) return;
                     const Real t = found.num / found.den;
@@ -122,24 +116,23 @@ ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres
         const auto o = load3<V>(source.ox + i, source.oy + i, source.oz + i);
         const auto d = load3<V>(source.dx + i, source.dy + i, source.dz + i);
         const F inverse = load<F>(inverse_t_max + i);
-        U blocked(0u);
+        U blocked(0u), left_id(no_sphere);
         if (source.left != nullptr) {
             const U left = choose(first_lanes<V>(count - i), load<U>(source.left + i), U(no_sphere));
-            const U left_id = left & U(no_sphere);
+            left_id = left & U(no_sphere);
             const auto inward = !words_equal(left, left_id) && !words_equal(left_id, U(skip));
             if (any(inward)) {
                 const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
                 blocked = choose(inward && t * inverse < F(1), U(1u), blocked);
             }
         }
-        put_tree_rays<V>(rays, i, o, d, spheres.tree.extent);
+        put_tree_rays<V>(rays, i, o, d, left_id, spheres.tree.extent);
         save(occluded + i, blocked);
         save(rays.limit + i, choose(words_equal(blocked, U(1u)), F(-1), tree_limit(F(1) / inverse)));
     }
     traverse<V>(spheres, rays, count, stack,
                 [&](std::uint32_t ray, const Chord<Real>& line, std::uint32_t k) ORRERY_INLINE_LAMBDA {
                     if (k == skip || occluded[ray] != 0) return;
-                    if (leaves(source, ray, k)) return;
                     const Real inverse = inverse_t_max[ray];
                     bool hit = source.t_min == nullptr && near_root_before<One>(line, inverse);
                     if (!hit && (source.t_min != nullptr || line.c <= 0)) {

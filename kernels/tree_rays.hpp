@@ -12,14 +12,15 @@ inline constexpr std::uint32_t tree_bunch = 256;
 
 /// A plane at x is crossed at t = x inverse + near or + far: near where the ray enters the slab, far where it leaves.
 ///
-/// Why no hit is lost. sphere.hpp finds a line that by rounding passes up to 3 ulp of |f| outside a sphere, f = O - C,
-/// and places the root where a parallel line that far aside has it. The slabs' own rounding (O inverse, the fused sum)
-/// shifts a plane by no more than 2 ulp of |O| + |x|. Both are less than slab_margin times the largest coordinate of
-/// origin and tree together, by which near and far push the planes apart; it costs nothing per node, as the sums have
-/// to be made anyhow. A component of the direction below least_slope is taken for least_slope, which moves the ray by
-/// less than the margin as far as the tree reaches: so 1 / D is finite, and no 0 * inf can arise. What remains is the
-/// rounding of t itself, relative to t: limit_margin.
-inline constexpr double slab_margin = 0x1p-20;
+/// Why no hit is lost, in units of u = 2^-24 times `reach`, the largest coordinate of origin and tree together. Nothing
+/// of interest lies farther than 3.5 reach. sphere.hpp finds a line that by rounding passes up to 3 ulp of |f| outside
+/// a sphere, f = C - O, and places the root where a parallel line that far aside has it: 21 u. The slab's own rounding
+/// is that of the inverse and of the fused sum, each relative to t, and three more of O inverse: 10 u. slab_margin is
+/// 32 u, and by it near and far push the planes apart. That costs nothing per node, as the sums have to be made anyhow.
+/// A component of the direction below least_slope is taken for least_slope, which moves the ray by less than a
+/// thousandth of u: so 1 / D is finite, and no 0 * inf can arise. What remains is the rounding of a hit's t itself,
+/// relative to t: limit_margin.
+inline constexpr double slab_margin = 0x1p-19;
 inline constexpr double least_slope = 0x1p-40;
 inline constexpr double limit_margin = 1 + 0x1p-16;
 
@@ -31,12 +32,13 @@ struct alignas(64) TreeRays {
     Column limit;  ///< no hit beyond this is of interest, margin included; negative: none at all
     Column origin[3], direction[3];
     Word octant[tree_bunch];  ///< bit a is set where the ray runs down axis a
+    Word left[tree_bunch];    ///< the sphere it is not to meet; no_sphere for none
 };
 
 /// Fills lanes i.. of the columns.
 template <class V>
 ORRERY_INLINE void put_tree_rays(TreeRays<typename V::Real>& rays, std::uint32_t i, const Vec3<typename V::F>& o,
-                                 const Vec3<typename V::F>& d, typename V::Real extent) {
+                                 const Vec3<typename V::F>& d, const typename V::U& left, typename V::Real extent) {
     using Real = typename V::Real;
     using F = typename V::F;
     using U = typename V::U;
@@ -60,6 +62,7 @@ ORRERY_INLINE void put_tree_rays(TreeRays<typename V::Real>& rays, std::uint32_t
         octant = octant | choose(down, U(1u << axis), U(0u));
     }
     save(rays.octant + i, octant);
+    save(rays.left + i, left);
 }
 
 }  // namespace orrery::kernels

@@ -19,10 +19,11 @@ struct TreeFrame {
     std::uint32_t node;
     std::uint32_t pending;      ///< children some ray has met
     std::uint64_t order;        ///< the next child to visit is in the lowest four bits
-    std::uint32_t begin, size;  ///< rays, in TreeStack's columns
+    std::uint32_t begin, size;  ///< rays, in TreeStack's columns; a vector of guard behind them
 };
 
-/// Room for a path from the root to the deepest node, every ray of the bunch reaching it.
+/// Room for a path from the root to the deepest node, every ray of the bunch reaching it: 140 KB of stack, of which an
+/// ordinary tree touches a tenth.
 template <class Real>
 struct TreeStack {
     using Word = WordOf<Real>;
@@ -32,13 +33,23 @@ struct TreeStack {
     Word met[room];  ///< bit c: the ray has met child c
 };
 
-/// Writes for every ray of the list which children it meets before its limit. Returns those any ray meets.
+/// first, first + 1, ... in the lanes.
+template <class V>
+ORRERY_INLINE typename V::U consecutive(std::uint32_t first) {
+    if constexpr (V::count == 1) {
+        return first;
+    } else {
+        return truncate_to_word(load<typename V::F>(detail::iota_table<typename V::Real>)) + typename V::U(first);
+    }
+}
+
+/// Writes for every ray of the list which children it meets before its limit, and none for a vector behind the last.
+/// Returns those any ray meets.
 template <class V>
 ORRERY_INLINE std::uint32_t meet_children(const TreeNode<typename V::Real>& node,
                                           const TreeRays<typename V::Real>& rays, std::uint32_t octant,
                                           const typename V::Word* list, std::uint32_t size, typename V::Word* met) {
     using F = typename V::F;
-    for (std::uint32_t i = 0; i < size; ++i) met[i] = 0;
     std::uint32_t some = 0;
     const auto* const near_x = node.bound[octant & 1u];
     const auto* const far_x = node.bound[~octant & 1u];
@@ -58,10 +69,11 @@ ORRERY_INLINE std::uint32_t meet_children(const TreeNode<typename V::Real>& node
             const F leave = min(min(mul_add(fx, ix, F(rays.far[0][r])), mul_add(fy, iy, F(rays.far[1][r]))),
                                 min(mul_add(fz, iz, F(rays.far[2][r])), F(rays.limit[r])));
             const std::uint32_t here = bits(enter <= leave) << c;
-            met[i] |= here;
+            met[i] = c == 0 ? here : met[i] | here;
             some |= here;
         }
     }
+    save(met + size, typename V::U(0u));
     return some;
 }
 
@@ -73,26 +85,45 @@ ORRERY_INLINE void meet_spheres(const SphereTable<typename V::Real>& spheres, st
                                 const Meet& meet) {
     using Real = typename V::Real;
     using F = typename V::F;
-    for (std::uint32_t k = first; k < first + tree_width; k += V::count) {
+    using U = typename V::U;
+    const std::uint32_t end = spheres.count - first < tree_width ? spheres.count : first + tree_width;
+    for (std::uint32_t k = first; k < end; k += V::count) {
         const auto centre = load3<V>(spheres.cx + k, spheres.cy + k, spheres.cz + k);
         const F radius = load<F>(spheres.radius + k);
         const F radius2 = load<F>(spheres.radius2 + k);
+        const U id = consecutive<V>(k);
+        const std::uint32_t live = end - k < V::count ? (1u << (end - k)) - 1 : ~0u;
         for (std::uint32_t i = 0; i < size; ++i) {
             const auto r = list[i];
             const Vec3<F> o{F(rays.origin[0][r]), F(rays.origin[1][r]), F(rays.origin[2][r])};
             const Vec3<F> d{F(rays.direction[0][r]), F(rays.direction[1][r]), F(rays.direction[2][r])};
             const auto line = chord(o, d, Sphere<F>{centre, radius, radius2});
-            std::uint32_t hit = bits(line.disc > F(0));
+            std::uint32_t hit = bits(line.disc > F(0) && !words_equal(id, U(rays.left[r]))) & live;
             if (hit == 0) continue;
             alignas(64) Real b[V::count], c[V::count], disc[V::count];
             save(b, line.b), save(c, line.c), save(disc, line.disc);
-            for (; hit != 0; hit &= hit - 1) {
+            do {
                 const auto lane = static_cast<std::uint32_t>(std::countr_zero(hit));
-                if (k + lane < spheres.count)
-                    meet(static_cast<std::uint32_t>(r), Chord<Real>{b[lane], c[lane], disc[lane]}, k + lane);
-            }
+                hit &= hit - 1;
+                meet(static_cast<std::uint32_t>(r), Chord<Real>{b[lane], c[lane], disc[lane]}, k + lane);
+            } while (hit != 0);
         }
     }
+}
+
+/// The entries of `from` where the bits of `key` under `mask` are `wanted`: to `to`. Returns how many. No entry of key
+/// in the vector behind the last may fit.
+template <class V>
+ORRERY_INLINE std::uint32_t select(const typename V::Word* from, const typename V::Word* key, std::uint32_t size,
+                                   typename V::Word mask, typename V::Word wanted, typename V::Word* to) {
+    using U = typename V::U;
+    std::uint32_t chosen = 0;
+    for (std::uint32_t i = 0; i < size; i += V::count) {
+        const std::uint32_t lanes = bits(words_equal(load<U>(key + i) & U(mask), U(wanted)));
+        compress_store<V>(to + chosen, load<U>(from + i), lanes);
+        chosen += static_cast<std::uint32_t>(std::popcount(lanes));
+    }
+    return chosen;
 }
 
 /// Calls meet(ray, chord, sphere) for every sphere (and some in vain) whose line a ray may meet before its limit. meet
@@ -101,36 +132,23 @@ template <class V, class Meet>
 ORRERY_INLINE void traverse(const SphereTable<typename V::Real>& spheres, TreeRays<typename V::Real>& rays,
                             std::uint32_t count, TreeStack<typename V::Real>& stack, const Meet& meet) {
     using Word = typename V::Word;
-    using U = typename V::U;
     const auto& tree = spheres.tree;
     alignas(64) Word places[tree_bunch];
-    for (std::uint32_t i = 0; i < count; ++i) places[i] = i;
-
-    /// The entries of `from` whose `key` has `bit` set (or is equal): to `to`. Returns how many.
-    const auto select = [](const Word* from, const Word* key, std::uint32_t size, Word mask, Word wanted,
-                           Word* to) ORRERY_INLINE_LAMBDA {
-        std::uint32_t chosen = 0;
-        for (std::uint32_t i = 0; i < size; i += V::count) {
-            const auto fits = words_equal(load<U>(key + i) & U(mask), U(wanted)) && first_lanes<V>(size - i);
-            const std::uint32_t lanes = bits(fits);
-            compress_store<V>(to + chosen, load<U>(from + i), lanes);
-            chosen += static_cast<std::uint32_t>(std::popcount(lanes));
-        }
-        return chosen;
-    };
+    for (std::uint32_t i = 0; i < tree_bunch; i += V::count) save(places + i, consecutive<V>(i));
+    for (std::uint32_t i = count; i < round_up(count); ++i) rays.octant[i] = 8;
 
     for (std::uint32_t octant = 0; octant < 8; ++octant) {
-        const std::uint32_t size = select(places, rays.octant, count, ~Word{0}, octant, stack.ray);
+        const std::uint32_t size = select<V>(places, rays.octant, count, ~Word{0}, octant, stack.ray);
         if (size == 0) continue;
         TreeFrame* top = stack.frame;
         *top = {0, meet_children<V>(tree.nodes[0], rays, octant, stack.ray, size, stack.met),
                 tree.nodes[0].order[octant], 0, size};
         while (true) {
-            while (top->pending == 0) {
+            if (top->pending == 0) {
                 if (top == stack.frame) break;
                 --top;
+                continue;
             }
-            if (top->pending == 0) break;
             std::uint32_t bit = 0, c = 0;
             do {
                 c = static_cast<std::uint32_t>(top->order & 15u);
@@ -138,9 +156,10 @@ ORRERY_INLINE void traverse(const SphereTable<typename V::Real>& spheres, TreeRa
                 bit = 1u << c;
             } while ((top->pending & bit) == 0);
             top->pending &= ~bit;
-            const std::uint32_t begin = top->begin + top->size;
+            // Behind the guard of the list above: a vector that meets nothing.
+            const std::uint32_t begin = top->begin + top->size + V::count;
             const std::uint32_t rest =
-                select(stack.ray + top->begin, stack.met + top->begin, top->size, bit, bit, stack.ray + begin);
+                select<V>(stack.ray + top->begin, stack.met + top->begin, top->size, bit, bit, stack.ray + begin);
             const std::uint32_t child = tree.nodes[top->node].child[c];
             if ((child & leaf_bit) != 0) {
                 meet_spheres<V>(spheres, child & ~leaf_bit, rays, stack.ray + begin, rest, meet);
