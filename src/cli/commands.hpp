@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "cli/arguments.hpp"
-#include "scene/scene.hpp"
+#include "plan/plan.hpp"
 
 namespace orrery {
 
@@ -23,5 +23,8 @@ int compare_command(const Arguments& arguments);
 /// The scene with the command line's overrides, every diagnostic of the file printed. Empty where the scene has
 /// errors. Throws UsageError where the overrides do not fit it.
 std::optional<Scene> load_scene(const Arguments& arguments);
+
+/// The scene's plan. Where building its tree takes long, a terminal is told.
+Plan plan_visibly(const Arguments& arguments, Scene scene);
 
 }  // namespace orrery

@@ -61,7 +61,7 @@ std::string queues_text(const Plan& plan, std::uint32_t wave_size) {
 int info_command(const Arguments& arguments) {
     std::optional<Scene> scene = load_scene(arguments);
     if (!scene) return exit_code::misused;
-    const Plan plan(std::move(*scene));
+    const Plan plan = plan_visibly(arguments, std::move(*scene));
     const RenderSettings& settings = plan.settings();
     const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
 

@@ -77,7 +77,7 @@ int render_command(const Arguments& arguments) {
     const Outputs outputs = choose_outputs(arguments, *scene);
     require_writable(outputs, *scene);
 
-    const Plan plan(std::move(*scene));
+    const Plan plan = plan_visibly(arguments, std::move(*scene));
     const auto outcome = render_until_signal(plan, arguments, goal);
     if (const auto* stopped = std::get_if<Stopped>(&outcome)) return exit_code::ended_by(stopped->signal);
     const auto& [image, standard_error, stats] = std::get<RenderResult>(outcome);

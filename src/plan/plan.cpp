@@ -45,14 +45,14 @@ constexpr std::uint32_t bit(Scattering kind) { return 1u << static_cast<unsigned
 
 }  // namespace
 
-Plan::Plan(Scene scene, const TreeProgress& progress) : scene_(std::move(scene)) {
+Plan::Plan(Scene scene) : scene_(std::move(scene)) {
     const RenderSettings& s = scene_.settings;
     require_valid(scene_);
     if (s.estimator == Estimator::stratified) {
         strata_ = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(s.samples)));
     }
     plan_camera();
-    plan_surfaces(plan_tree(progress));
+    plan_surfaces(plan_tree());
     plan_lights();
     plan_needs();
 }
@@ -95,7 +95,7 @@ void Plan::plan_camera() {
 }
 
 /// Few spheres keep their order; many take their tree's. Returns which primitive stands at each place.
-std::vector<std::uint32_t> Plan::plan_tree(const TreeProgress& progress) {
+std::vector<std::uint32_t> Plan::plan_tree() {
     std::vector<std::uint32_t> order(scene_.primitives.size());
     std::iota(order.begin(), order.end(), 0u);
     needs_.tree = order.size() >= tree_crossover;
@@ -107,7 +107,7 @@ std::vector<std::uint32_t> Plan::plan_tree(const TreeProgress& progress) {
         const glm::vec3 centre(p.centre);
         spheres.push_back({centre.x, centre.y, centre.z, static_cast<float>(p.radius), i});
     }
-    tree_ = build_tree(spheres, progress);
+    tree_ = build_tree(spheres);
     std::ranges::transform(spheres, order.begin(), &BuildSphere::index);
     return order;
 }

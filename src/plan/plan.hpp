@@ -43,9 +43,8 @@ struct Decision {
 /// Columns that own what the kernels' tables point to. The tables stay valid for the plan's life; plans do not copy.
 class Plan {
 public:
-    /// Throws std::invalid_argument where a scene built by hand breaks what the reader guarantees. `progress` hears of
-    /// the building of a tree over many spheres.
-    explicit Plan(Scene scene, const TreeProgress& progress = {});
+    /// Throws std::invalid_argument where a scene built by hand breaks what the reader guarantees.
+    explicit Plan(Scene scene);
     Plan(const Plan&) = delete;
     Plan& operator=(const Plan&) = delete;
 
@@ -73,7 +72,7 @@ public:
 
 private:
     void plan_camera();
-    std::vector<std::uint32_t> plan_tree(const TreeProgress& progress);
+    std::vector<std::uint32_t> plan_tree();
     void plan_surfaces(const std::vector<std::uint32_t>& order);
     void plan_lights();
     void plan_needs();

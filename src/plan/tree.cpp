@@ -165,13 +165,12 @@ private:
 
 }  // namespace
 
-Tree build_tree(std::span<BuildSphere> spheres, const TreeProgress& progress) {
+Tree build_tree(std::span<BuildSphere> spheres) {
     if (spheres.size() >= (std::size_t{1} << 27)) throw std::length_error("more than 2^27 spheres");
     Tree tree;
     if (spheres.empty()) return tree;
     BinaryBuilder binary(spheres);
     const Run* const root = binary.build();
-    if (progress) progress(0.9);
     WideBuilder(tree.nodes).build(root);
     for (std::size_t axis = 0; axis < 3; ++axis)
         tree.extent = std::max({tree.extent, std::abs(root->bound.low[axis]), std::abs(root->bound.high[axis])});

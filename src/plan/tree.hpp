@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -22,15 +21,11 @@ struct Tree {
     float extent = 0;                             ///< largest magnitude of a bound's coordinate
 };
 
-/// Called from one thread at a time with the fraction done, in [0, 1].
-using TreeProgress = std::function<void(double fraction)>;
-
 /// Measured: with fewer spheres the linear loop is faster.
 inline constexpr std::size_t tree_crossover = 64;
 
 /// Builds the tree over `spheres` and puts them into its order: a sphere's place is the id the kernels give. Fewer than
-/// 2^27 of them, finite, radii >= 0. All cores TBB grants; the same tree for any number of them. `progress` may be
-/// empty.
-Tree build_tree(std::span<BuildSphere> spheres, const TreeProgress& progress = {});
+/// 2^27 of them, finite, radii >= 0. All cores TBB grants; the same tree for any number of them.
+Tree build_tree(std::span<BuildSphere> spheres);
 
 }  // namespace orrery
