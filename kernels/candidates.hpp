@@ -50,6 +50,21 @@ struct Bunch {
     Real spread, deviation, t_max;
 };
 
+/// Whether the middle and the last of `count` rays run within some 35 degrees of the first, and begin no further from
+/// it than a fifth of its length: where they do not, as after a diffuse bounce, bounding the rest would be in vain.
+template <class Real>
+ORRERY_INLINE bool may_be_coherent(const Real* const (&column)[6], const Real* inverse_t_max, std::uint32_t count) {
+    const auto three = [&](int c, std::uint32_t i) ORRERY_INLINE_LAMBDA {
+        return Vec3<Real>{column[c][i], column[c + 1][i], column[c + 2][i]};
+    };
+    const Real inverse = inverse_t_max != nullptr ? *inverse_t_max : Real(0);
+    const auto like_first = [&](std::uint32_t i) ORRERY_INLINE_LAMBDA {
+        const Vec3<Real> apart = (three(0, i) - three(0, 0)) * inverse;
+        return dot(three(3, i), three(3, 0)) > Real(0.8) && dot(apart, apart) < Real(0.04);
+    };
+    return like_first(count - 1) && like_first(count / 2);
+}
+
 /// Bounds `count` >= V::count rays whose origins and directions stand in the six columns.
 template <class V>
 ORRERY_INLINE Bunch<typename V::Real> bound(const typename V::Real* const (&column)[6],
@@ -112,6 +127,15 @@ ORRERY_INLINE SomeSpheres candidates(const SphereTable<typename V::Real>& sphere
         may |= std::uint64_t{bits(!(reach * reach < dot(l, l)))} << k;
     }
     return {may & every(spheres.count).bits};
+}
+
+/// The same for the rays whose origins and directions stand in the six columns.
+template <class V>
+ORRERY_INLINE SomeSpheres candidates(const SphereTable<typename V::Real>& spheres,
+                                     const typename V::Real* const (&column)[6], const typename V::Real* inverse_t_max,
+                                     std::uint32_t count) {
+    if (count < V::count || !may_be_coherent(column, inverse_t_max, count)) return every(spheres.count);
+    return candidates<V>(spheres, bound<V>(column, inverse_t_max, count));
 }
 
 }  // namespace orrery::kernels

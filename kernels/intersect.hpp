@@ -128,17 +128,17 @@ void intersect(const SphereTable<typename V::Real>& spheres, const RayQueue<type
     intersect_among<V>(spheres, AllSpheres{spheres.count}, rays, 0, count, hits);
 }
 
-/// The same, faster where neighbours in the queue run alike. The table has SomeSpheres::capacity spheres at most.
+/// The same, faster where neighbours in the queue run alike and hardly slower where they do not. The table has
+/// SomeSpheres::capacity spheres at most.
 template <class V>
 void intersect_coherent(const SphereTable<typename V::Real>& spheres, const RayQueue<typename V::Real>& rays,
                         std::uint32_t count, const HitQueue<typename V::Real>& hits) {
     for (std::uint32_t begin = 0; begin < count; begin += bunch_size) {
         const std::uint32_t end = count - begin < bunch_size ? count : begin + bunch_size;
-        SomeSpheres among = every(spheres.count);
-        if (end - begin >= V::count)
-            among = candidates<V>(spheres, bound<V>({rays.ox + begin, rays.oy + begin, rays.oz + begin, rays.dx + begin,
-                                                     rays.dy + begin, rays.dz + begin},
-                                                    nullptr, end - begin));
+        const SomeSpheres among = candidates<V>(
+            spheres,
+            {rays.ox + begin, rays.oy + begin, rays.oz + begin, rays.dx + begin, rays.dy + begin, rays.dz + begin},
+            nullptr, end - begin);
         intersect_among<V>(spheres, among, rays, begin, end, hits);
     }
 }

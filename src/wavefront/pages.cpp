@@ -35,11 +35,10 @@ std::uint32_t generate(Wave& w) {
     return w.count;
 }
 
-/// Whether neighbours in the queue run alike: from the camera and from what its rays hit, before a scattering. A few
-/// spheres are sooner tested than a bunch of rays bounded.
-bool bunched(const Wave& w, std::uint32_t bounce) {
+/// Whether it may pay to bound neighbouring rays together: a few spheres are sooner tested.
+bool bunched(const Wave& w) {
     const std::uint32_t spheres = w.plan.spheres().count;
-    return bounce == 0 && spheres >= fewest_candidates && spheres <= kernels::SomeSpheres::capacity;
+    return spheres >= fewest_candidates && spheres <= kernels::SomeSpheres::capacity;
 }
 
 /// Rays -> hits.
@@ -47,9 +46,7 @@ void intersect(Wave& w, std::uint32_t rays, std::uint32_t bounce) {
     const bool tree = w.plan.needs().tree;
     const std::uint32_t bytes = 2 * vector3 + word + record_bytes(w.storage.hits);
     const StageTimer timer(w, Stage::intersect, bounce, {rays, bytes, tree ? 0 : w.stages.sphere_step});
-    const auto stage = tree                 ? w.stages.intersect_tree
-                       : bunched(w, bounce) ? w.stages.intersect_coherent
-                                            : w.stages.intersect;
+    const auto stage = tree ? w.stages.intersect_tree : bunched(w) ? w.stages.intersect_coherent : w.stages.intersect;
     stage(w.plan.spheres(), w.storage.rays, rays, w.storage.hits);
     w.counters.closest_rays += rays;
 }
@@ -109,7 +106,7 @@ void shadow(Wave& w, std::uint32_t rays, std::uint32_t light_sphere, std::uint32
     const bool tree = w.plan.needs().tree;
     const std::uint32_t bytes = record_bytes(w.storage.shadows) + 2 * row;
     const StageTimer timer(w, Stage::shadow, bounce, {rays, bytes, tree ? 0 : w.stages.sphere_step});
-    const auto stage = tree ? w.stages.shadow_tree : bunched(w, bounce) ? w.stages.shadow_coherent : w.stages.shadow;
+    const auto stage = tree ? w.stages.shadow_tree : bunched(w) ? w.stages.shadow_coherent : w.stages.shadow;
     stage(w.plan.spheres(), w.storage.shadows, rays, light_sphere, w.storage.slots);
     w.counters.shadow_rays += rays;
 }

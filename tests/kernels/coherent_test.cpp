@@ -152,6 +152,26 @@ TEST(CandidatesTest, AreFewForANarrowBeamAndAllForAWideOne) {
     EXPECT_EQ(kernels::candidates<One>(world.spheres, wider).bits, ~std::uint64_t{0});
 }
 
+// A look at three rays decides whether all are bounded.
+TEST(CandidatesTest, AreAllWhereRaysRunApart) {
+    using One = kernels::ScalarLanes<float>;
+    const World world({{{0, 0, 10}, 1}, {{0, 0, -10}, 1}});
+    const auto of = [&](const glm::dvec3& last, const glm::dvec3& last_origin, double inverse_t_max) {
+        Rays rays(kernels::widest);
+        std::vector<float> inverse(32, narrow(inverse_t_max));
+        for (std::uint32_t k = 0; k < 32; ++k) put_ray(*rays, k, {0, 0, 0}, {0, 0, 1});
+        put_ray(*rays, 31, last_origin, last);
+        return kernels::candidates<One>(world.spheres, {rays->ox, rays->oy, rays->oz, rays->dx, rays->dy, rays->dz},
+                                        inverse.data(), 32)
+            .bits;
+    };
+    EXPECT_EQ(of({0, 0, 1}, {0, 0, 0}, 0), 1u);
+    EXPECT_EQ(of({0, 0.5, 1}, {0, 0, 0}, 0), 1u);
+    EXPECT_EQ(of({0, 1, 1}, {0, 0, 0}, 0), 3u);
+    EXPECT_EQ(of({0, 0, 1}, {1, 0, 0}, 0.1), 1u);
+    EXPECT_EQ(of({0, 0, 1}, {3, 0, 0}, 0.1), 3u) << "far apart for their length";
+}
+
 // To the last bit, however the middle of the bunch is rounded.
 TEST(CandidatesTest, TheBoundHoldsEveryRay) {
     using One = kernels::ScalarLanes<float>;
