@@ -53,8 +53,8 @@ TimedBy clock_for(unsigned threads) { return threads == 1 ? TimedBy::processor :
 
 void run_ours(benchmark::State& state, const Plan& plan, unsigned threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const Shuffled given(plan.spheres());
-    const std::uint32_t count = plan.spheres().count;
+    const Shuffled given(plan.tables().spheres);
+    const std::uint32_t count = plan.tables().spheres.count;
     double best = INFINITY;
     for (auto _ : state) {
         std::vector<BuildSphere> spheres;
@@ -63,19 +63,19 @@ void run_ours(benchmark::State& state, const Plan& plan, unsigned threads) {
         const Stopwatch watch(clock_for(threads));
         const Tree tree = build_tree(spheres);
         const double seconds = watch.seconds();
-        if (tree.nodes.size() != plan.spheres().tree.count) fail(state, "the tree is not the plan's");
+        if (tree.nodes.size() != plan.tables().spheres.tree.count) fail(state, "the tree is not the plan's");
         state.SetIterationTime(seconds);
         best = std::min(best, seconds);
     }
     state.counters["seconds"] = best;
-    describe(state, count, threads, table_bytes(plan.spheres()), "ours");
+    describe(state, count, threads, table_bytes(plan.tables().spheres), "ours");
 }
 
 #if ORRERY_EMBREE
 void run_embree(benchmark::State& state, const Plan& plan, unsigned threads, RTCBuildQuality quality,
                 const std::string& who) {
     const std::string config = fmt::format("threads={},start_threads=1", threads);
-    const Shuffled given(plan.spheres());
+    const Shuffled given(plan.tables().spheres);
     double bytes = 0;
     double best = INFINITY;
     for (auto _ : state) {
@@ -85,7 +85,7 @@ void run_embree(benchmark::State& state, const Plan& plan, unsigned threads, RTC
         bytes = static_cast<double>(scene.bytes());
     }
     state.counters["seconds"] = best;
-    describe(state, plan.spheres().count, threads, bytes, who);
+    describe(state, plan.tables().spheres.count, threads, bytes, who);
 }
 #endif
 

@@ -25,7 +25,7 @@ struct Column {
     bool number;
 };
 
-std::vector<Column> columns(const WaveStorage& storage, const StageCall& call) {
+std::vector<Column> columns(const WaveStorage<float>& storage, const StageCall& call) {
     std::vector<Column> found;
     each_array(storage, call.results, 1, 1, [&]<class T>(const char* name, const T* array, std::size_t words) {
         found.push_back({name, reinterpret_cast<const std::uint32_t*>(array), words, std::is_same_v<T, float>});
@@ -69,8 +69,8 @@ struct Difference {
     const char* field = "";     ///< of the first one
 };
 
-Difference difference(const StageCall& call, const WaveStorage& expected, Runs expected_runs, const WaveStorage& found,
-                      Runs found_runs, bool to_the_byte) {
+Difference difference(const StageCall& call, const WaveStorage<float>& expected, Runs expected_runs,
+                      const WaveStorage<float>& found, Runs found_runs, bool to_the_byte) {
     if (call.results & radiance_part && !(call.results & ray_part)) {
         expected_runs = found_runs = {};  // by slot, whatever records the stage ran over
         expected_runs.run[0] = found_runs.run[0] = {0, call.slots};

@@ -13,7 +13,7 @@ struct Workspace {
     Workspace(const Plan& plan, std::uint32_t wave_size)
         : work(plan.needs(), plan.settings().depth, wave_size),
           expected(plan.needs(), plan.settings().depth, wave_size) {}
-    WaveStorage work, expected;
+    WaveStorage<float> work, expected;
 };
 
 /// Runs the calls once with `stages` and once with the scalar ones. Instruction sets with fused multiply-add must give

@@ -34,7 +34,7 @@ void run_linear(benchmark::State& state, World& world, std::uint32_t bounce) {
     const std::vector<double> seconds = time_pieces(state, pieces, TimedBy::processor);
     double kernel = 0, ports = 0;
     for (std::size_t i = 0; i < seconds.size(); i += 2) kernel += seconds[i], ports += seconds[i + 1];
-    const double tests = vectors * world.plan().spheres().count;
+    const double tests = vectors * world.plan().tables().spheres.count;
     const double slots = static_cast<double>(calls.size()) * independent_operations;
     const double bound = slots / ports / slots_per_test;
     state.counters["Rays/s"] = vectors * stages.lanes / kernel;

@@ -34,7 +34,7 @@ void run_ours(benchmark::State& state, World& world, const PeerQueue& queue, Isa
 
 std::vector<PeerHit> our_answers(const StageCall& call, Workspace& space) {
     const auto& stages = kernels::stages_for(best_isa());
-    WaveStorage& wave = space.work;
+    WaveStorage<float>& wave = space.work;
     call.before.restore(wave);
     std::vector<PeerHit> answers;
     if (call.stage == "intersect") {
@@ -55,7 +55,7 @@ std::vector<PeerHit> our_answers(const StageCall& call, Workspace& space) {
 }
 
 void describe_peer(benchmark::State& state, World& world, std::string_view who) {
-    const auto spheres = world.plan().spheres().count;
+    const auto spheres = world.plan().tables().spheres.count;
     const auto wave = world.recording().wave_size;
     state.counters["spheres"] = spheres;
     state.counters["wave"] = wave;

@@ -74,7 +74,7 @@ void run_embree(benchmark::State& state, World& world, const PeerQueue& queue, b
     rtcInitIntersectContext(&context);
     context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     const RTCScene scene = world.embree(queue.stage == std::string_view("shadow")).scene();
-    const auto& spheres = world.plan().spheres();
+    const auto& spheres = world.plan().tables().spheres;
     const FlushDenormals as_its_manual_asks;
 
     // Google Benchmark calls this several times; answers are compared once.
@@ -84,7 +84,7 @@ void run_embree(benchmark::State& state, World& world, const PeerQueue& queue, b
     std::size_t rays = 0;
     for (const StageCall* call : world.recording().of(queue.stage, queue.bounce)) {
         call->before.restore(world.workspace().work);
-        const WaveStorage& wave = world.workspace().work;
+        const WaveStorage<float>& wave = world.workspace().work;
         queries.emplace_back(call->stage == "shadow" ? peer_rays(spheres, wave.shadows, call->rays, call->skip)
                                                      : peer_rays(spheres, wave.rays, call->rays));
         rays += call->rays;

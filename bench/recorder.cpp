@@ -22,7 +22,7 @@ using Spheres = SphereTable<float>;
 struct Session {
     const Table& forward;
     Recording& recording;
-    const Wave* wave = nullptr;
+    const Wave<float>* wave = nullptr;
     std::uint32_t passes = 0;  ///< of intersect, in this wave
 };
 Session* session = nullptr;
@@ -56,10 +56,11 @@ std::uint32_t bytes_of(const Queue& queue) {
 constexpr std::uint32_t vector3 = 12, word = 4;
 
 void note(std::string stage, std::uint32_t rays, std::uint32_t bytes, std::uint32_t inputs, std::uint32_t records,
-          std::uint32_t results, std::function<Runs(const Table&, WaveStorage&)> run, std::uint32_t skip = no_sphere) {
+          std::uint32_t results, std::function<Runs(const Table&, WaveStorage<float>&)> run,
+          std::uint32_t skip = no_sphere) {
     const std::uint32_t bounce = session->passes == 0 ? 0 : session->passes - 1;
     if (rays == 0 || (bounce != 0 && bounce != 1 && bounce != 3)) return;
-    const Wave& wave = *session->wave;
+    const Wave<float>& wave = *session->wave;
     session->recording.calls.push_back({std::move(stage), bounce, rays, bytes, results, wave.count, skip,
                                         Snapshot(wave.storage, inputs, wave.count, records), std::move(run)});
 }
@@ -69,7 +70,7 @@ void generate_noted(const CameraTable<float>& camera, const Slots& slots, std::u
                     const Rays& rays) {
     session->passes = 0;
     note("generate", count, 4 * word + bytes_of(rays) + 4 * word, slot_part, 0, ray_part | radiance_part,
-         [camera, count, seed](const Table& s, WaveStorage& w) {
+         [camera, count, seed](const Table& s, WaveStorage<float>& w) {
              (lens ? s.generate_lens : s.generate_pinhole)(camera, w.slots, count, seed, w.rays);
              return whole(count);
          });
@@ -81,7 +82,7 @@ template <Table::Intersect Table::*stage>
 void intersect_noted(const Spheres& spheres, const Rays& rays, std::uint32_t count, const Hits& hits) {
     ++session->passes;
     note("intersect", count, 2 * vector3 + word + 2 * word, ray_part, count, hit_part,
-         [spheres, count](const Table& s, WaveStorage& w) {
+         [spheres, count](const Table& s, WaveStorage<float>& w) {
              (s.*stage)(spheres, w.rays, count, w.hits);
              return whole(count);
          });
@@ -91,7 +92,7 @@ void intersect_noted(const Spheres& spheres, const Rays& rays, std::uint32_t cou
 void emission_noted(const Spheres& spheres, const EmissionTable<float>& lights, LightStrategy strategy,
                     const Rays& rays, const Hits& hits, std::uint32_t count, const Slots& slots) {
     note("emission", count, bytes_of(hits) + 3 * vector3 + 2 * word, radiance_part | ray_part | hit_part, count,
-         radiance_part, [spheres, lights, strategy, count](const Table& s, WaveStorage& w) {
+         radiance_part, [spheres, lights, strategy, count](const Table& s, WaveStorage<float>& w) {
              s.emission(spheres, lights, strategy, w.rays, w.hits, count, w.slots);
              return whole(count);
          });
@@ -101,7 +102,7 @@ void emission_noted(const Spheres& spheres, const EmissionTable<float>& lights, 
 bool sort_noted(const Spheres& spheres, std::uint32_t kinds, const Rays& rays, const Hits& hits, std::uint32_t count,
                 const Rays& sorted_rays, const Hits& sorted_hits, Runs& runs) {
     note("sort", count, 2 * (bytes_of(rays) + bytes_of(hits)) + vector3 + word, ray_part | hit_part, count, sorted_part,
-         [spheres, kinds, count](const Table& s, WaveStorage& w) {
+         [spheres, kinds, count](const Table& s, WaveStorage<float>& w) {
              Runs found;
              const bool moved =
                  s.sort_by_scattering(spheres, kinds, w.rays, w.hits, count, w.sorted_rays, w.sorted_hits, found);
@@ -120,7 +121,7 @@ void scatter_noted(const ScatterContext<float>& context, Range run, const Rays& 
                            kind == static_cast<std::uint32_t>(Scattering::translucent);
     note(scatter_names[kind], run.count, 2 * bytes_of(rays) + bytes_of(hits) + (rough ? bytes_of(lobes) : 0),
          slot_part | ray_part | hit_part, run.begin + run.count, ray_part | (rough ? lobe_part : 0u),
-         [context, run](const Table& s, WaveStorage& w) {
+         [context, run](const Table& s, WaveStorage<float>& w) {
              ScatterContext<float> here = context;
              here.slots = w.slots;
              s.scatter[kind](here, run, w.rays, w.hits, w.lobes);
@@ -147,7 +148,7 @@ std::uint32_t connect_noted(const ConnectContext<float>& context, const Light& l
     const bool point = std::is_same_v<Light, kernels::PointLight<float>>;
     note(point ? "connect point" : "connect area", run.count,
          2 * vector3 + 4 * word + bytes_of(lobes) + bytes_of(queue), slot_part | ray_part | lobe_part,
-         run.begin + run.count, shadow_part, [context, light, run](const Table& s, WaveStorage& w) {
+         run.begin + run.count, shadow_part, [context, light, run](const Table& s, WaveStorage<float>& w) {
              ConnectContext<float> here = context;
              here.slots = w.slots;
              return whole(of(s)(here, light, run, w.rays, w.lobes, w.shadows));
@@ -160,7 +161,7 @@ void shadow_noted(const Spheres& spheres, const Shadows& queue, std::uint32_t co
                   const Slots& slots) {
     note(
         "shadow", count, bytes_of(queue) + 2 * vector3, radiance_part | shadow_part, count, radiance_part,
-        [spheres, count, skip](const Table& s, WaveStorage& w) {
+        [spheres, count, skip](const Table& s, WaveStorage<float>& w) {
             (s.*stage)(spheres, w.shadows, count, skip, w.slots);
             return whole(count);
         },
@@ -171,7 +172,7 @@ void shadow_noted(const Spheres& spheres, const Shadows& queue, std::uint32_t co
 std::uint32_t roulette_noted(const Slots& slots, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs& runs,
                              const Rays& rays) {
     note("roulette", total(runs), 2 * bytes_of(rays), slot_part | ray_part, end_of(runs), ray_part,
-         [seed, bounce, play, runs](const Table& s, WaveStorage& w) {
+         [seed, bounce, play, runs](const Table& s, WaveStorage<float>& w) {
              return whole(s.roulette(w.slots, seed, bounce, play, runs, w.rays));
          });
     return session->forward.roulette(slots, seed, bounce, play, runs, rays);
@@ -225,12 +226,11 @@ std::vector<std::pair<std::string, std::uint32_t>> Recording::kinds() const {
 Recording record(const Plan& plan, std::uint32_t waves) {
     Recording recording;
     recording.wave_size = choose_wave_size(plan, 0);
-    recording.queue_bytes_per_ray =
-        WaveStorage::bytes(plan.needs(), plan.settings().depth, recording.wave_size) / recording.wave_size;
+    recording.queue_bytes_per_ray = queue_bytes(plan, recording.wave_size) / recording.wave_size;
     const Table& forward = stages_for(best_isa());
     const Table table = noting(forward);
     Film film(plan.settings().width, plan.settings().height);
-    Wave wave(plan, table, film, recording.wave_size);
+    Wave<float> wave(plan, table, film, recording.wave_size);
     Session here{forward, recording, &wave};
     session = &here;
     const Tiling tiles(plan.settings().width, plan.settings().height, tile_side(plan.samples()));

@@ -26,7 +26,7 @@ struct StageCall {
     std::uint32_t skip = kernels::no_sphere;  ///< shadow: the light's own sphere
     Snapshot before;
     /// Runs the stage of `stages` on the restored queues; returns the records of `results` that it left.
-    std::function<kernels::Runs(const kernels::Stages<float>& stages, WaveStorage& wave)> run;
+    std::function<kernels::Runs(const kernels::Stages<float>& stages, WaveStorage<float>& wave)> run;
 };
 
 /// All the calls a benchmark makes: one per wave.

@@ -67,11 +67,11 @@ void run_render(benchmark::State& state, Subject& subject, Isa isa, unsigned thr
     const auto seconds = time_pieces(state, whole, threads == 1 ? TimedBy::processor : TimedBy::wall);
     set_rates(state, seconds[0], static_cast<double>(stats.closest_rays + stats.shadow_rays));
     state.counters["bytes/ray"] = static_cast<double>(stats.bytes_per_ray);
-    state.counters["spheres"] = subject.plan.spheres().count;
+    state.counters["spheres"] = subject.plan.tables().spheres.count;
     state.counters["wave"] = stats.wave_size;
     state.counters["threads"] = threads;
     state.SetLabel(fmt::format("{} float wave={} spheres={} threads={}", isa_name(isa), stats.wave_size,
-                               subject.plan.spheres().count, threads));
+                               subject.plan.tables().spheres.count, threads));
 }
 
 }  // namespace

@@ -48,10 +48,10 @@ void each_array(Storage& storage, std::uint32_t parts, std::uint32_t slots, std:
 class Snapshot {
 public:
     /// Copies the first `slots` slots and `records` records of `parts`, rounded up to whole vectors.
-    Snapshot(const WaveStorage& from, std::uint32_t parts, std::uint32_t slots, std::uint32_t records);
+    Snapshot(const WaveStorage<float>& from, std::uint32_t parts, std::uint32_t slots, std::uint32_t records);
 
     /// Puts everything back where it was. `to` has the layout of the storage the snapshot was taken of.
-    void restore(WaveStorage& to) const;
+    void restore(WaveStorage<float>& to) const;
 
 private:
     std::uint32_t parts_, slots_, records_;

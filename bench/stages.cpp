@@ -24,10 +24,10 @@ void run_stage(benchmark::State& state, World& world, const std::string& stage, 
     }
     time_passes(state, pieces, rays);
     state.counters["bytes/ray"] = bytes / rays;
-    state.counters["spheres"] = world.plan().spheres().count;
+    state.counters["spheres"] = world.plan().tables().spheres.count;
     state.counters["wave"] = world.recording().wave_size;
     state.SetLabel(fmt::format("{} float wave={} spheres={}", isa_name(isa), world.recording().wave_size,
-                               world.plan().spheres().count));
+                               world.plan().tables().spheres.count));
 }
 
 }  // namespace

@@ -86,7 +86,8 @@ const std::string& World::fault(const std::string& stage, std::uint32_t bounce, 
 EmbreeScene& World::embree(bool occlusion) {
     auto& scene = embree_[occlusion ? 1 : 0];
     if (scene == nullptr)
-        scene = std::make_unique<EmbreeScene>(plan().spheres(), embree_config(occlusion), RTC_BUILD_QUALITY_HIGH);
+        scene =
+            std::make_unique<EmbreeScene>(plan().tables().spheres, embree_config(occlusion), RTC_BUILD_QUALITY_HIGH);
     return *scene;
 }
 #endif

@@ -121,10 +121,10 @@ void add_machine(CLI::App& app, Arguments& arguments) {
                "Instruction set (default: auto, the best this machine has)",
                [&](const std::string& text) { arguments.isa = parse_isa(text); })
         ->group(group);
-    add_option(app, "--precision", "float", "Number type to compute in (default: float, the only one there is)",
-               [](const std::string& text) {
-                   if (text != "float") throw unexpected(text, "float, the only precision this version computes in");
-               })
+    add_option(app, "--precision", alternatives(precision_words),
+               "Number type to compute in; auto is float where its positions are good enough for the scene (default: "
+               "float)",
+               [&](const std::string& text) { arguments.overrides.precision = parse_word(text, precision_words); })
         ->group(group);
     add_option(app, "--wave-size", "N",
                "For experts: samples traced together per thread (default: what fits its cache)",

@@ -48,9 +48,7 @@ std::string method_text(const RenderSettings& s) {
 /// The queues of a thread where their length is given; what one (pixel, sample) pair takes where render decides it.
 std::string queues_text(const Plan& plan, std::uint32_t wave_size) {
     constexpr std::uint32_t many = 1u << 16;  // so that padding does not count
-    const auto bytes = [&](std::uint32_t count) {
-        return WaveStorage::bytes(plan.needs(), plan.settings().depth, count);
-    };
+    const auto bytes = [&](std::uint32_t count) { return queue_bytes(plan, count); };
     std::string text = fmt::format("{} bytes per (pixel, sample) pair in flight", bytes(many) / many);
     if (wave_size != 0) text += fmt::format(", {} per thread for waves of {}", bytes_text(bytes(wave_size)), wave_size);
     return text;
@@ -79,7 +77,7 @@ int info_command(const Arguments& arguments) {
     row("film", bytes_text(pixels * bytes_per_pixel));
     row("queues", queues_text(plan, arguments.wave_size));
     row("isa", fmt::format("{} (this machine supports {})", isa_name(arguments.isa), supported_isas()));
-    row("precision", "float");
+    row("precision", word_for(precision_words, settings.precision));
 
     text += "\nplan\n";
     for (const Decision& decision : plan.decisions()) {

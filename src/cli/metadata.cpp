@@ -33,7 +33,7 @@ std::string canonical_options(const RenderSettings& s, const Goal& goal, ImageFo
     if (format == ImageFormat::ppm || format == ImageFormat::png) {
         add("tonemap", word_for(tonemap_words, tone_mapper(s)));
     }
-    add("precision", "float");
+    add("precision", word_for(precision_words, s.precision));
     return text;
 }
 

@@ -25,6 +25,7 @@ struct Overrides {
     std::optional<LightSampling> light_sampling;
     std::optional<bool> roulette;
     std::optional<ToneMap> tonemap;
+    std::optional<Precision> precision;
 };
 
 /// Throws UsageError where the settings together are none a scene file could hold: more pixels than there is memory

@@ -63,6 +63,14 @@ std::vector<fs::path> write_images(const std::vector<fs::path>& files, const Pla
     return written;
 }
 
+void warn_of_precision(const Plan& plan) {
+    const Precision precision = plan.settings().precision;
+    if (const auto coarse = coarse_positions(plan.scene(), precision)) {
+        const char* advice = precision == Precision::binary32 ? "; use --precision double" : "";
+        print_warning(in_words(*coarse, precision) + advice);
+    }
+}
+
 void write_stats(const Outputs& outputs, const std::string& json) {
     if (outputs.stats_to_standard_output) print_result(json);
     if (outputs.stats) write_atomically(*outputs.stats, std::as_bytes(std::span(json)));
@@ -78,6 +86,7 @@ int render_command(const Arguments& arguments) {
     require_writable(outputs, *scene);
 
     const Plan plan = plan_visibly(arguments, std::move(*scene));
+    if (!arguments.quiet) warn_of_precision(plan);
     const auto outcome = render_until_signal(plan, arguments, goal);
     if (const auto* stopped = std::get_if<Stopped>(&outcome)) return exit_code::ended_by(stopped->signal);
     const auto& [image, standard_error, stats] = std::get<RenderResult>(outcome);

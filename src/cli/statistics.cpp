@@ -85,7 +85,7 @@ std::string statistics_json(const Plan& plan, const Goal& goal, const RenderStat
         {"depth", settings.depth},
         {"seed", settings.seed},
         {"isa", isa_name(stats.isa)},
-        {"precision", "float"},
+        {"precision", word_for(precision_words, settings.precision)},
         {"threads", stats.threads},
         {"wave_size", stats.wave_size},
         {"bytes_per_ray", stats.bytes_per_ray},

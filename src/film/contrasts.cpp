@@ -13,11 +13,11 @@ struct Squares {
     std::uint64_t contrasts;
 };
 
-/// What `value` makes of four channels, channel by channel. In float: its rounding is that of the samples, and equal
+/// What `value` makes of four channels, channel by channel. In the samples' own type: its rounding is theirs, and equal
 /// ones still leave exactly zero. Unless `checked`, one that is not finite spoils the sum.
-template <bool checked, class Value>
+template <class Real, bool checked, class Value>
 inline void add_square(Squares& sum, Value value) {
-    float contrast[4];
+    Real contrast[4];
     for (std::uint32_t c = 0; c < 4; ++c) contrast[c] = value(c);
     if (checked && !std::isfinite(contrast[0] + contrast[1] + contrast[2])) return;
     for (std::uint32_t c = 0; c < 4; ++c) sum.lane[c] += double{contrast[c]} * double{contrast[c]};
@@ -25,28 +25,28 @@ inline void add_square(Squares& sum, Value value) {
 }
 
 /// a - b of two visits to a row, cell by cell.
-template <bool checked>
-inline void add_differences(Squares& sum, const float* row, const float* again, std::uint32_t columns) {
+template <bool checked, class Real>
+inline void add_differences(Squares& sum, const Real* row, const Real* again, std::uint32_t columns) {
     for (std::uint32_t i = 0; i < 4 * columns; i += 4)
-        add_square<checked>(sum, [&](std::uint32_t c) { return row[i + c] - again[i + c]; });
+        add_square<Real, checked>(sum, [&](std::uint32_t c) { return row[i + c] - again[i + c]; });
 }
 
 /// a - b - c + d of blocks side by side; in rows of odd length the last overlaps the one before.
-template <bool checked>
-inline void add_blocks(Squares& sum, const float* row, const float* next, std::uint32_t columns) {
+template <bool checked, class Real>
+inline void add_blocks(Squares& sum, const Real* row, const Real* next, std::uint32_t columns) {
     const auto add = [&](std::uint32_t x) {
-        const float* const upper = row + 4 * x;
-        const float* const lower = next + 4 * x;
-        add_square<checked>(sum,
-                            [&](std::uint32_t c) { return (upper[c] - upper[c + 4]) - (lower[c] - lower[c + 4]); });
+        const Real* const upper = row + 4 * x;
+        const Real* const lower = next + 4 * x;
+        add_square<Real, checked>(
+            sum, [&](std::uint32_t c) { return (upper[c] - upper[c + 4]) - (lower[c] - lower[c + 4]); });
     };
     for (std::uint32_t x = 0; x + 2 <= columns; x += 2) add(x);
     if (columns % 2 == 1) add(columns - 2);
 }
 
 /// A run of groups: pairs of visits, or two or three rows of cells.
-template <bool checked>
-void add_run(Squares& sum, const float* rgbx, std::uint32_t rows, std::uint32_t columns, bool twice) {
+template <bool checked, class Real>
+void add_run(Squares& sum, const Real* rgbx, std::uint32_t rows, std::uint32_t columns, bool twice) {
     const std::size_t stride = std::size_t{4} * columns;
     if (twice) {
         for (std::uint32_t row = 0; row < rows; row += 2, rgbx += 2 * stride)
@@ -60,7 +60,8 @@ void add_run(Squares& sum, const float* rgbx, std::uint32_t rows, std::uint32_t 
 
 }  // namespace
 
-void Contrasts::begin(std::uint32_t columns, bool twice) {
+template <class Real>
+void Contrasts<Real>::begin(std::uint32_t columns, bool twice) {
     columns_ = columns;
     twice_ = twice;
     pixel_ = no_pixel;
@@ -68,7 +69,8 @@ void Contrasts::begin(std::uint32_t columns, bool twice) {
     begun_.reserve(std::size_t{12} * columns);
 }
 
-void Contrasts::add(Film& film, std::size_t pixel, const float* rgbx, std::uint32_t count) {
+template <class Real>
+void Contrasts<Real>::add(Film& film, std::size_t pixel, const Real* rgbx, std::uint32_t count) {
     if (columns_ == 1 && !twice_) return;
     if (pixel != pixel_) {
         pixel_ = pixel;
@@ -98,12 +100,14 @@ void Contrasts::add(Film& film, std::size_t pixel, const float* rgbx, std::uint3
 }
 
 /// Two rows; where an odd number of rows is visited once, the last three, so that none is left over.
-std::uint32_t Contrasts::group_size() const {
+template <class Real>
+std::uint32_t Contrasts<Real>::group_size() const {
     const bool last_of_odd = !twice_ && rows_done_ + 3 == columns_;
     return (last_of_odd ? 3 : 2) * columns_;
 }
 
-void Contrasts::add_rows(Spread& spread, const float* rgbx, std::uint32_t rows) {
+template <class Real>
+void Contrasts<Real>::add_rows(Spread& spread, const Real* rgbx, std::uint32_t rows) {
     const Squares before{{spread.squares.r, spread.squares.g, spread.squares.b, 0}, spread.contrasts};
     Squares sum = before;
     add_run<false>(sum, rgbx, rows, columns_, twice_);
@@ -116,5 +120,8 @@ void Contrasts::add_rows(Spread& spread, const float* rgbx, std::uint32_t rows) 
     spread.contrasts = sum.contrasts;
     rows_done_ += rows;
 }
+
+template class Contrasts<float>;
+template class Contrasts<double>;
 
 }  // namespace orrery

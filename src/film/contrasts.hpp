@@ -27,7 +27,8 @@
 
 namespace orrery {
 
-/// Forms the contrasts of one pixel after the other. Owned by one thread.
+/// Forms the contrasts of one pixel after the other, from samples in Real. Owned by one thread.
+template <class Real = float>
 class Contrasts {
 public:
     /// Samples come row by row of a grid of `columns` x `columns` cells, one in each cell of a row; with `twice` every
@@ -36,18 +37,21 @@ public:
 
     /// Adds the next samples of a pixel to the film's spread: r, g, b and one unused number each. A pixel's samples may
     /// come in any number of portions, one pixel at a time. A contrast with a sample that is not finite is left out.
-    void add(Film& film, std::size_t pixel, const float* rgbx, std::uint32_t count);
+    void add(Film& film, std::size_t pixel, const Real* rgbx, std::uint32_t count);
 
 private:
     std::uint32_t group_size() const;
-    void add_rows(Spread& spread, const float* rgbx, std::uint32_t rows);
+    void add_rows(Spread& spread, const Real* rgbx, std::uint32_t rows);
 
     std::uint32_t columns_ = 1;
     bool twice_ = true;
     std::size_t pixel_ = no_pixel;
     std::uint32_t rows_done_ = 0;  ///< of the present pixel
-    std::vector<float> begun_;     ///< samples of a group of rows that the last portion left incomplete
+    std::vector<Real> begun_;      ///< samples of a group of rows that the last portion left incomplete
     static constexpr std::size_t no_pixel = ~std::size_t{0};
 };
+
+extern template class Contrasts<float>;
+extern template class Contrasts<double>;
 
 }  // namespace orrery

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace orrery {
@@ -55,19 +56,20 @@ public:
     std::uint32_t height() const { return height_; }
     std::size_t pixels() const { return pixels_.size(); }
 
-    /// Adds one sample to a pixel (index = y * width + x). A sample that is not finite never gets in.
-    /// Returns false when it was dropped.
+    /// Adds one sample to a pixel (index = y * width + x). A sample that is not finite, or that no float holds, never
+    /// gets in. Returns false when it was dropped.
     bool add(std::size_t pixel, float r, float g, float b) {
         assert(pixel < pixels_.size());
         return add_to(pixels_[pixel], r, g, b);
     }
 
     /// Adds `count` samples to a pixel, in order: r, g, b and one unused number each. Returns how many were dropped.
-    std::uint32_t add(std::size_t pixel, const float* rgbx, std::uint32_t count) {
+    template <class Real>
+    std::uint32_t add(std::size_t pixel, const Real* rgbx, std::uint32_t count) {
         assert(pixel < pixels_.size());
         Pixel sum = pixels_[pixel];  // in registers: through memory each sample would wait for the one before
         std::uint32_t dropped = 0;
-        for (const float* const end = rgbx + std::size_t{4} * count; rgbx != end; rgbx += 4)
+        for (const Real* const end = rgbx + std::size_t{4} * count; rgbx != end; rgbx += 4)
             dropped += add_to(sum, rgbx[0], rgbx[1], rgbx[2]) ? 0u : 1u;
         pixels_[pixel] = sum;
         return dropped;
@@ -92,11 +94,18 @@ private:
         std::uint64_t samples = 0;
     };
 
-    static bool add_to(Pixel& sum, float r, float g, float b) {
-        // One test for three channels: in double the sum of three floats cannot overflow, so it is finite exactly
-        // when all three are (inf - inf is NaN, which is not finite either).
+    template <class Real>
+    static bool add_to(Pixel& sum, Real r, Real g, Real b) {
         const double dr = r, dg = g, db = b;
-        if (!std::isfinite(dr + dg + db)) return false;
+        if constexpr (sizeof(Real) == 8) {
+            // What comes out is floats.
+            constexpr double largest = std::numeric_limits<float>::max();
+            if (!(std::abs(r) <= largest && std::abs(g) <= largest && std::abs(b) <= largest)) return false;
+        } else {
+            // One test for three channels: in double the sum of three floats cannot overflow, so it is finite exactly
+            // when all three are (inf - inf is NaN, which is not finite either).
+            if (!std::isfinite(dr + dg + db)) return false;
+        }
         sum.r += dr;
         sum.g += dg;
         sum.b += db;

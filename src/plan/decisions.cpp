@@ -28,9 +28,10 @@ std::vector<Decision> Plan::decisions() const {
     const auto decide = [&](const char* part, bool runs, std::string reason) {
         list.push_back({part, runs, std::move(reason)});
     };
+    decide("double precision", s.precision == Precision::binary64, reason_of_precision(scene_));
     decide("intersect: tree", n.tree,
-           n.tree ? fmt::format("{} spheres in {} nodes of sixteen", spheres_.count, tree_.nodes.size())
-                  : fmt::format("{} spheres: one loop is faster below {}", spheres_.count, tree_crossover));
+           n.tree ? fmt::format("{} spheres in {} nodes of sixteen", scene_.primitives.size(), nodes_)
+                  : fmt::format("{} spheres: one loop is faster below {}", scene_.primitives.size(), tree_crossover));
     decide("generate: lens", n.lens,
            n.lens ? fmt::format("aperture {}", scene_.camera.aperture) : "the camera is a pinhole");
     if (n.integrator == Integrator::depth) {
@@ -44,20 +45,19 @@ std::vector<Decision> Plan::decisions() const {
     }
     decide("shade: sort", n.sort, n.sort ? "surfaces scatter in several ways" : "all surfaces scatter alike");
     decide("shade: emission", n.emitters,
-           n.emitters ? fmt::format("{} emissive spheres", area_lights_.size()) : "no sphere emits");
+           n.emitters ? fmt::format("{} emissive spheres", emitters_) : "no sphere emits");
     decide("shade: background", n.background, n.background ? "rays that miss carry light" : "the background is black");
     decide("shadow: point lights", n.connect_point != 0,
-           n.connect_point != 0
-               ? fmt::format("{} of them, from {} surfaces", point_lights_.size(), kinds(n.connect_point))
-           : point_lights_.empty() ? "there is none"
-                                   : "no surface they could light");
+           n.connect_point != 0 ? fmt::format("{} of them, from {} surfaces", point_lights_, kinds(n.connect_point))
+           : point_lights_ == 0 ? "there is none"
+                                : "no surface they could light");
     const bool naive = n.integrator == Integrator::path_tracing && s.transport == Transport::naive;
     decide("shadow: area lights", n.connect_area != 0,
-           n.connect_area != 0    ? fmt::format("{} of them, from {} surfaces{}", area_lights_.size(),
-                                                kinds(n.connect_area), n.competing ? ", weighed against scattering" : "")
-           : area_lights_.empty() ? "there is none"
-           : naive                ? "naive transport finds them by scattering"
-                                  : "no surface samples them");
+           n.connect_area != 0 ? fmt::format("{} of them, from {} surfaces{}", emitters_, kinds(n.connect_area),
+                                             n.competing ? ", weighed against scattering" : "")
+           : emitters_ == 0    ? "there is none"
+           : naive             ? "naive transport finds them by scattering"
+                               : "no surface samples them");
     decide("roulette: play", n.roulette,
            n.integrator == Integrator::whitted ? "Whitted ray tracing cuts weak branches instead"
            : n.roulette                        ? "paths of little throughput end early"

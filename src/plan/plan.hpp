@@ -1,13 +1,12 @@
 // Scene -> Plan: flat arrays for the kernels, and the list of what this scene needs. What is not needed is not run.
 #pragma once
 
-#include <array>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "kernels/tables.hpp"
-#include "plan/tree.hpp"
-#include "scene/scene.hpp"
+#include "plan/precision.hpp"
+#include "plan/tables.hpp"
 
 namespace orrery {
 
@@ -40,7 +39,7 @@ struct Decision {
     std::string reason;
 };
 
-/// Columns that own what the kernels' tables point to. The tables stay valid for the plan's life; plans do not copy.
+/// Plans do not copy.
 class Plan {
 public:
     /// Throws std::invalid_argument where a scene built by hand breaks what the reader guarantees.
@@ -49,50 +48,37 @@ public:
     Plan& operator=(const Plan&) = delete;
 
     const Scene& scene() const { return scene_; }
+    /// Their precision is never automatic: the plan has decided.
     const RenderSettings& settings() const { return scene_.settings; }
     const Needs& needs() const { return needs_; }
     std::vector<Decision> decisions() const;
 
-    const kernels::CameraTable<float>& camera() const { return camera_; }
-    const kernels::SphereTable<float>& spheres() const { return spheres_; }
-    const kernels::MaterialTable<float>& materials() const { return materials_; }
-    const kernels::EmissionTable<float>& emission() const { return emission_; }
-    const std::vector<kernels::PointLight<float>>& point_lights() const { return point_lights_; }
-    const std::vector<kernels::AreaLight<float>>& area_lights() const { return area_lights_; }
+    /// In the settings' precision, float or double; the other one throws std::bad_variant_access.
+    template <class Real = float>
+    const Tables<Real>& tables() const {
+        return std::get<Tables<Real>>(tables_);
+    }
 
     /// Samples per pixel really taken: e * e with e = strata() when stratified.
     std::uint32_t samples() const;
     /// Cells per pixel side: floor(sqrt(samples)) when stratified, 1 when uniform.
     std::uint32_t strata() const { return strata_; }
     /// Half the image plane at distance 1: x in [-half_width, half_width], y likewise.
-    double half_width() const { return half_width_; }
-    double half_height() const { return half_height_; }
-    /// The enclosing volume's distance for DEPTH: larger than any hit distance in the scene.
-    float enclosing_distance() const { return enclosing_distance_; }
+    double half_width() const { return frame_.half_width; }
+    double half_height() const { return frame_.half_height; }
 
 private:
     void plan_camera();
-    std::vector<std::uint32_t> plan_tree();
-    void plan_surfaces(const std::vector<std::uint32_t>& order);
-    void plan_lights();
+    void plan_tables();
     void plan_needs();
 
     Scene scene_;
     Needs needs_;
     std::uint32_t strata_ = 1;
-    double half_width_ = 0, half_height_ = 0;
-    float enclosing_distance_ = 1;
-    kernels::CameraTable<float> camera_{};
-    kernels::SphereTable<float> spheres_;
-    kernels::MaterialTable<float> materials_;
-    kernels::EmissionTable<float> emission_;
-    std::vector<kernels::PointLight<float>> point_lights_;
-    std::vector<kernels::AreaLight<float>> area_lights_;
-    Tree tree_;
-    std::array<std::vector<float>, 6> sphere_columns_;        // cx cy cz radius, its square and inverse
-    std::array<std::vector<std::uint32_t>, 2> sphere_words_;  // surface light
-    std::array<std::vector<float>, 8> material_columns_;      // rho, tau, eta, roughness
-    std::array<std::vector<float>, 3> emission_columns_;
+    CameraFrame frame_;
+    std::size_t nodes_ = 0;                        ///< of the tree
+    std::size_t emitters_ = 0, point_lights_ = 0;  ///< that are switched on
+    std::variant<std::monostate, Tables<float>, Tables<double>> tables_;
 };
 
 }  // namespace orrery

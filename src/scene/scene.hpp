@@ -56,6 +56,8 @@ enum class Integrator : std::uint8_t { path_tracing, whitted, depth };
 enum class Estimator : std::uint8_t { uniform, stratified };
 enum class Transport : std::uint8_t { naive, nee, mis };
 enum class LightSampling : std::uint8_t { area, cone };
+/// The kernels' number type (IEEE 754); automatic: float where it is good enough for the scene.
+enum class Precision : std::uint8_t { automatic, binary32, binary64 };
 
 /// The `renderer` object: what to compute, and where the file says the image goes.
 struct RenderSettings {
@@ -72,6 +74,7 @@ struct RenderSettings {
     /// Empty: the integrator's own (sigmoid for radiance; a DEPTH image is already in [0, 1] and is left alone).
     std::optional<ToneMap> tonemap;
     std::uint32_t seed = 0;
+    Precision precision = Precision::binary32;
 };
 
 struct Scene {

@@ -16,57 +16,70 @@ using kernels::Scattering;
 /// Bytes of a record of the queue, absent fields left out.
 template <class Queue>
 std::uint32_t record_bytes(const Queue& queue) {
-    std::uint32_t sum = 0;
-    Queue::each_field([&](const char*, auto field) { sum += queue.*field != nullptr ? 4u : 0u; });
-    return sum;
+    std::size_t sum = 0;
+    Queue::each_field([&](const char*, auto field) { sum += queue.*field != nullptr ? sizeof(*(queue.*field)) : 0; });
+    return static_cast<std::uint32_t>(sum);
 }
 
 constexpr std::uint32_t fewest_candidates = 4;
-constexpr std::uint32_t word = 4, vector3 = 3 * word, row = 4 * word;
+
+/// Bytes of a word or number, of three and of four.
+template <class Real>
+constexpr std::uint32_t word = sizeof(Real);
+template <class Real>
+constexpr std::uint32_t vector3 = 3 * word<Real>;
+template <class Real>
+constexpr std::uint32_t row = 4 * word<Real>;
 
 // ---- the five stages, as the pages call them ----------------------------------------------------------------------
 
 /// Camera -> ray queue. Returns the number of rays, one per slot.
-std::uint32_t generate(Wave& w) {
-    const StageTimer timer(w, Stage::generate, 0,
-                           {w.count, 4 * word + record_bytes(w.storage.rays) + row, w.stages.step});
+template <class Real>
+std::uint32_t generate(Wave<Real>& w) {
+    const StageTimer timer(w.counters, Stage::generate, 0,
+                           {w.count, 4 * word<Real> + record_bytes(w.storage.rays) + row<Real>, w.stages.step});
     const auto stage = w.plan.needs().lens ? w.stages.generate_lens : w.stages.generate_pinhole;
     stage(w.camera, w.storage.slots, w.count, w.plan.settings().seed, w.storage.rays);
     return w.count;
 }
 
 /// Whether it may pay to bound neighbouring rays together: a few spheres are sooner tested.
-bool bunched(const Wave& w) {
-    const std::uint32_t spheres = w.plan.spheres().count;
+template <class Real>
+bool bunched(const Wave<Real>& w) {
+    const std::uint32_t spheres = w.tables.spheres.count;
     return spheres >= fewest_candidates && spheres <= kernels::SomeSpheres::capacity;
 }
 
 /// Rays -> hits.
-void intersect(Wave& w, std::uint32_t rays, std::uint32_t bounce) {
+template <class Real>
+void intersect(Wave<Real>& w, std::uint32_t rays, std::uint32_t bounce) {
     const bool tree = w.plan.needs().tree;
-    const std::uint32_t bytes = 2 * vector3 + word + record_bytes(w.storage.hits);
-    const StageTimer timer(w, Stage::intersect, bounce, {rays, bytes, tree ? 0 : w.stages.sphere_step});
+    const std::uint32_t bytes = 2 * vector3<Real> + word<Real> + record_bytes(w.storage.hits);
+    const StageTimer timer(w.counters, Stage::intersect, bounce, {rays, bytes, tree ? 0 : w.stages.sphere_step});
     const auto stage = tree ? w.stages.intersect_tree : bunched(w) ? w.stages.intersect_coherent : w.stages.intersect;
-    stage(w.plan.spheres(), w.storage.rays, rays, w.storage.hits);
+    stage(w.tables.spheres, w.storage.rays, rays, w.storage.hits);
     w.counters.closest_rays += rays;
 }
 
-LightStrategy light_strategy(const Wave& w) {
+template <class Real>
+LightStrategy light_strategy(const Wave<Real>& w) {
     return w.plan.settings().light_sampling == LightSampling::cone ? LightStrategy::cone : LightStrategy::area;
 }
 
 /// Hits -> the radiance rays run into.
-void gather_emission(Wave& w, std::uint32_t rays, std::uint32_t bounce) {
+template <class Real>
+void gather_emission(Wave<Real>& w, std::uint32_t rays, std::uint32_t bounce) {
     const Needs& needs = w.plan.needs();
     if (!needs.emitters && !needs.background) return;
     // The hits' ids; what few rays run into light load more.
-    const StageTimer timer(w, Stage::shade, bounce, {rays, word, w.stages.step, true});
-    w.stages.emission(w.plan.spheres(), w.plan.emission(), light_strategy(w), w.storage.rays, w.storage.hits, rays,
+    const StageTimer timer(w.counters, Stage::shade, bounce, {rays, word<Real>, w.stages.step, true});
+    w.stages.emission(w.tables.spheres, w.tables.emission, light_strategy(w), w.storage.rays, w.storage.hits, rays,
                       w.storage.slots);
 }
 
 /// Hits -> one run per way of scattering. Where the scene has one way, the queue is the run, misses included.
-Runs sort_hits(Wave& w, std::uint32_t rays, std::uint32_t bounce) {
+template <class Real>
+Runs sort_hits(Wave<Real>& w, std::uint32_t rays, std::uint32_t bounce) {
     const Needs& needs = w.plan.needs();
     Runs runs;
     if (!needs.sort) {
@@ -74,10 +87,10 @@ Runs sort_hits(Wave& w, std::uint32_t rays, std::uint32_t bounce) {
             if (needs.scatters(static_cast<Scattering>(k))) runs.run[k] = {0, rays};
         return runs;
     }
-    WaveStorage& s = w.storage;
-    const std::uint32_t bytes = vector3 + word + 2 * (record_bytes(s.rays) + record_bytes(s.hits));
-    const StageTimer timer(w, Stage::shade, bounce, {rays, bytes, w.stages.lanes, true});
-    if (w.stages.sort_by_scattering(w.plan.spheres(), needs.scattering, s.rays, s.hits, rays, s.sorted_rays,
+    WaveStorage<Real>& s = w.storage;
+    const std::uint32_t bytes = vector3<Real> + word<Real> + 2 * (record_bytes(s.rays) + record_bytes(s.hits));
+    const StageTimer timer(w.counters, Stage::shade, bounce, {rays, bytes, w.stages.lanes, true});
+    if (w.stages.sort_by_scattering(w.tables.spheres, needs.scattering, s.rays, s.hits, rays, s.sorted_rays,
                                     s.sorted_hits, runs)) {
         std::swap(s.rays, s.sorted_rays);
         std::swap(s.hits, s.sorted_hits);
@@ -85,39 +98,43 @@ Runs sort_hits(Wave& w, std::uint32_t rays, std::uint32_t bounce) {
     return runs;
 }
 
-kernels::ScatterContext<float> scatter_context(const Wave& w, std::uint32_t bounce) {
-    return {w.plan.spheres(), w.plan.materials(),      w.storage.slots, w.plan.settings().seed,
+template <class Real>
+kernels::ScatterContext<Real> scatter_context(const Wave<Real>& w, std::uint32_t bounce) {
+    return {w.tables.spheres, w.tables.materials,      w.storage.slots, w.plan.settings().seed,
             bounce,           w.plan.needs().competing};
 }
 
 /// A run's hits -> the rays that leave them.
-void scatter(Wave& w, Scattering kind, const Runs& runs, std::uint32_t bounce) {
+template <class Real>
+void scatter(Wave<Real>& w, Scattering kind, const Runs& runs, std::uint32_t bounce) {
     const auto k = static_cast<std::size_t>(kind);
     if (runs.run[k].count == 0) return;
     // Read and written in place but for the slot, pixel and sample, which are only read.
-    const std::uint32_t bytes = 2 * record_bytes(w.storage.rays) - 3 * word + record_bytes(w.storage.hits);
-    const StageTimer timer(w, Stage::shade, bounce, {runs.run[k].count, bytes, w.stages.step});
+    const std::uint32_t bytes = 2 * record_bytes(w.storage.rays) - 3 * word<Real> + record_bytes(w.storage.hits);
+    const StageTimer timer(w.counters, Stage::shade, bounce, {runs.run[k].count, bytes, w.stages.step});
     w.stages.scatter[k](scatter_context(w, bounce), runs.run[k], w.storage.rays, w.storage.hits, w.storage.lobes);
 }
 
 /// Shadow queue -> radiance.
-void shadow(Wave& w, std::uint32_t rays, std::uint32_t light_sphere, std::uint32_t bounce) {
+template <class Real>
+void shadow(Wave<Real>& w, std::uint32_t rays, std::uint32_t light_sphere, std::uint32_t bounce) {
     if (rays == 0) return;
     const bool tree = w.plan.needs().tree;
-    const std::uint32_t bytes = record_bytes(w.storage.shadows) + 2 * row;
-    const StageTimer timer(w, Stage::shadow, bounce, {rays, bytes, tree ? 0 : w.stages.sphere_step});
+    const std::uint32_t bytes = record_bytes(w.storage.shadows) + 2 * row<Real>;
+    const StageTimer timer(w.counters, Stage::shadow, bounce, {rays, bytes, tree ? 0 : w.stages.sphere_step});
     const auto stage = tree ? w.stages.shadow_tree : bunched(w) ? w.stages.shadow_coherent : w.stages.shadow;
-    stage(w.plan.spheres(), w.storage.shadows, rays, light_sphere, w.storage.slots);
+    stage(w.tables.spheres, w.storage.shadows, rays, light_sphere, w.storage.slots);
     w.counters.shadow_rays += rays;
 }
 
 /// Vertices -> shadow queue -> radiance, for every light and every run that samples it.
-void connect(Wave& w, const Runs& runs, std::uint32_t bounce) {
+template <class Real>
+void connect(Wave<Real>& w, const Runs& runs, std::uint32_t bounce) {
     const Plan& plan = w.plan;
-    const WaveStorage& s = w.storage;
-    kernels::ConnectContext<float> context{
-        plan.spheres(), plan.materials(), s.slots, plan.settings().seed, bounce, 0, plan.needs().competing};
-    const std::uint32_t bytes = 2 * vector3 + 4 * word + record_bytes(s.shadows);
+    const WaveStorage<Real>& s = w.storage;
+    kernels::ConnectContext<Real> context{
+        w.tables.spheres, w.tables.materials, s.slots, plan.settings().seed, bounce, 0, plan.needs().competing};
+    const std::uint32_t bytes = 2 * vector3<Real> + 4 * word<Real> + record_bytes(s.shadows);
     for (std::uint32_t k = 0; k < kernels::scattering_count; ++k) {
         const auto run = runs.run[k];
         if (run.count == 0) continue;
@@ -125,10 +142,10 @@ void connect(Wave& w, const Runs& runs, std::uint32_t bounce) {
         const auto response = static_cast<Scattering>(k) == Scattering::diffuse ? Response::diffuse : Response::glossy;
         const auto r = static_cast<std::size_t>(response);
         if ((plan.needs().connect_point >> k & 1u) != 0) {
-            for (const auto& light : plan.point_lights()) {
+            for (const auto& light : w.tables.point_lights) {
                 std::uint32_t rays = 0;
                 {
-                    const StageTimer timer(w, Stage::shade, bounce, load);
+                    const StageTimer timer(w.counters, Stage::shade, bounce, load);
                     rays = w.stages.connect_point[r](context, light, run, s.rays, s.lobes, s.shadows);
                 }
                 shadow(w, rays, kernels::no_sphere, bounce);
@@ -137,10 +154,10 @@ void connect(Wave& w, const Runs& runs, std::uint32_t bounce) {
         if ((plan.needs().connect_area >> k & 1u) != 0) {
             const auto sample = w.stages.connect_area[static_cast<std::size_t>(light_strategy(w))][r];
             context.light = 0;
-            for (const auto& light : plan.area_lights()) {
+            for (const auto& light : w.tables.area_lights) {
                 std::uint32_t rays = 0;
                 {
-                    const StageTimer timer(w, Stage::shade, bounce, load);
+                    const StageTimer timer(w.counters, Stage::shade, bounce, load);
                     rays = sample(context, light, run, s.rays, s.lobes, s.shadows);
                 }
                 shadow(w, rays, light.sphere, bounce);
@@ -151,10 +168,12 @@ void connect(Wave& w, const Runs& runs, std::uint32_t bounce) {
 }
 
 /// Kill, weigh, compact. Returns the number of survivors.
-std::uint32_t roulette(Wave& w, const Runs& runs, std::uint32_t bounce) {
+template <class Real>
+std::uint32_t roulette(Wave<Real>& w, const Runs& runs, std::uint32_t bounce) {
     std::uint32_t rays = 0;
     for (const auto& run : runs.run) rays += run.count;
-    const StageTimer timer(w, Stage::roulette, bounce, {rays, 2 * record_bytes(w.storage.rays), w.stages.step});
+    const StageTimer timer(w.counters, Stage::roulette, bounce,
+                           {rays, 2 * record_bytes(w.storage.rays), w.stages.step});
     return w.stages.roulette(w.storage.slots, w.plan.settings().seed, bounce, w.plan.needs().roulette, runs,
                              w.storage.rays);
 }
@@ -168,7 +187,8 @@ void end_diffuse(Runs& runs) { runs.run[static_cast<std::size_t>(Scattering::dif
 
 /// Path tracing. After the k-th pass of the loop a path has scattered k times; the last pass only looks at what its
 /// rays run into, and is left out where nothing there could count.
-void trace_paths(Wave& w) {
+template <class Real>
+void trace_paths(Wave<Real>& w) {
     const Needs& needs = w.plan.needs();
     const std::uint32_t depth = w.plan.settings().depth;
     const bool anything_shines = needs.emitters || needs.background;
@@ -192,8 +212,9 @@ void trace_paths(Wave& w) {
 }
 
 /// Whitted ray tracing, L D S* E: diffuse surfaces end a ray, mirrors turn it, dielectrics branch it.
-void trace_whitted(Wave& w) {
-    WaveStorage& s = w.storage;
+template <class Real>
+void trace_whitted(Wave<Real>& w) {
+    WaveStorage<Real>& s = w.storage;
     const auto k = [](Scattering kind) { return static_cast<std::size_t>(kind); };
 
     std::uint32_t rays = generate(w);
@@ -210,26 +231,35 @@ void trace_whitted(Wave& w) {
         w.stages.descend(s.slots, runs.run[k(Scattering::specular)], s.rays);
         const auto dielectric = runs.run[k(Scattering::dielectric)];
         if (dielectric.count > 0) {
-            const StageTimer timer(w, Stage::shade, pass, {dielectric.count, 2 * record_bytes(s.rays), w.stages.lanes});
+            const StageTimer timer(w.counters, Stage::shade, pass,
+                                   {dielectric.count, 2 * record_bytes(s.rays), w.stages.lanes});
             w.stages.branch(scatter_context(w, 0), dielectric, s.rays, s.hits, s.branches);
         }
         rays = roulette(w, runs, pass);
         if (w.plan.needs().branches) {
-            const StageTimer timer(w, Stage::roulette, pass, {0, 0, 0});
+            const StageTimer timer(w.counters, Stage::roulette, pass, {0, 0, 0});
             rays = w.stages.resume(s.slots, s.branches, rays, s.rays, s.live);
         }
     }
 }
 
 /// Distance along the ray, the enclosing volume's where nothing is hit.
-void trace_distances(Wave& w) {
-    WaveStorage& s = w.storage;
+template <class Real>
+void trace_distances(Wave<Real>& w) {
+    WaveStorage<Real>& s = w.storage;
     intersect(w, generate(w), 0);
     for (std::uint32_t slot = 0; slot < w.count; ++slot) {
         const bool missed = s.hits.id[slot] == kernels::no_sphere;
-        const float distance = missed ? w.plan.enclosing_distance() : s.hits.t[slot];
+        const Real distance = missed ? w.tables.enclosing_distance : s.hits.t[slot];
         for (std::size_t c = 0; c < 3; ++c) s.slots.radiance[4 * slot + c] = distance;
     }
 }
+
+template void trace_paths(Wave<float>&);
+template void trace_paths(Wave<double>&);
+template void trace_whitted(Wave<float>&);
+template void trace_whitted(Wave<double>&);
+template void trace_distances(Wave<float>&);
+template void trace_distances(Wave<double>&);
 
 }  // namespace orrery

@@ -20,7 +20,8 @@ double work_of(const std::vector<Task>& tasks) {
 }
 
 /// Every pixel's samples at once, as the plan says.
-void render_at_once(const Plan& plan, Workers& workers, Progress& progress, RenderStats& stats) {
+template <class Real>
+void render_at_once(const Plan& plan, Workers<Real>& workers, Progress& progress, RenderStats& stats) {
     const Tiling tiles(plan.settings().width, plan.settings().height, tile_side(plan.samples()));
     std::vector<Task> tasks;
     for (std::size_t i = 0; i < tiles.size(); ++i) tasks.push_back({tiles[i], whole_pattern(plan)});
@@ -30,7 +31,8 @@ void render_at_once(const Plan& plan, Workers& workers, Progress& progress, Rend
 }
 
 /// Pass after pass until the goal is reached.
-void render_in_passes(const Plan& plan, const RenderOptions& options, const Film& film, Workers& workers,
+template <class Real>
+void render_in_passes(const Plan& plan, const RenderOptions& options, const Film& film, Workers<Real>& workers,
                       Progress& progress, RenderStats& stats) {
     const Integrator integrator = plan.settings().integrator;
     const auto start = Clock::now();
@@ -56,11 +58,10 @@ void render_in_passes(const Plan& plan, const RenderOptions& options, const Film
     stats.stopped_by = passes.reason();
 }
 
-}  // namespace
-
-RenderResult render(const Plan& plan, const RenderOptions& options) {
+template <class Real>
+RenderResult render_in(const Plan& plan, const RenderOptions& options) {
     Film film(plan.settings().width, plan.settings().height);
-    Workers workers(plan, options, film);
+    Workers<Real> workers(plan, options, film);
     Progress progress(options);
     RenderResult result;
     RenderStats& stats = result.stats;
@@ -77,6 +78,13 @@ RenderResult render(const Plan& plan, const RenderOptions& options) {
     if (options.standard_error) result.standard_error = develop_error(film, integrator);
     if (!options.goal.asked()) workers.execute([&] { stats.error = estimate_error(film, integrator, result.image); });
     return result;
+}
+
+}  // namespace
+
+RenderResult render(const Plan& plan, const RenderOptions& options) {
+    return plan.settings().precision == Precision::binary64 ? render_in<double>(plan, options)
+                                                            : render_in<float>(plan, options);
 }
 
 }  // namespace orrery

@@ -35,9 +35,8 @@ struct StageLoad {
 /// From construction to destruction.
 class StageTimer {
 public:
-    StageTimer(Wave& wave, Stage stage, std::uint32_t bounce, const StageLoad& load)
-        : to_(wave.counters
-                  .bounces[std::min<std::size_t>(bounce, profile_bounces - 1)][static_cast<std::size_t>(stage)]),
+    StageTimer(WaveCounters& counters, Stage stage, std::uint32_t bounce, const StageLoad& load)
+        : to_(counters.bounces[std::min<std::size_t>(bounce, profile_bounces - 1)][static_cast<std::size_t>(stage)]),
           start_(TickClock::now()) {
         to_.rays += load.again ? 0 : load.rays;
         to_.bytes += std::uint64_t{load.rays} * load.bytes_per_ray;

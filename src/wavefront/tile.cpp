@@ -4,12 +4,13 @@ namespace orrery {
 
 namespace {
 
-/// (pixel, sample) pairs per wave: the queues of 2048 take about half of a 1 MiB L2.
+/// (pixel, sample) pairs per wave: the queues of 2048 take about half of a 1 MiB L2, in double all of it.
 constexpr std::uint32_t default_wave_size = 2048;
 /// What one thread's queues may take; Whitted's branch stacks make waves smaller, nothing else does.
 constexpr std::size_t queue_limit = std::size_t{4} << 20;
 
-void trace(Wave& wave) {
+template <class Real>
+void trace(Wave<Real>& wave) {
     switch (wave.plan.settings().integrator) {
         case Integrator::path_tracing:
             return trace_paths(wave);
@@ -22,14 +23,15 @@ void trace(Wave& wave) {
 
 /// Traces the wave's slots and hands their radiance to the film, in slot order: a pixel's samples are summed in the
 /// order of their numbers, whatever the wave size.
-void flush(Wave& wave) {
+template <class Real>
+void flush(Wave<Real>& wave) {
     if (wave.count == 0) return;
     trace(wave);
     const auto& slots = wave.storage.slots;
     for (std::uint32_t s = 0; s < wave.count;) {
         std::uint32_t end = s + 1;
         while (end < wave.count && slots.pixel[end] == slots.pixel[s]) ++end;
-        const float* const radiance = slots.radiance + std::size_t{4} * s;
+        const Real* const radiance = slots.radiance + std::size_t{4} * s;
         wave.counters.dropped_samples += wave.film.add(slots.pixel[s], radiance, end - s);
         wave.contrasts.add(wave.film, slots.pixel[s], radiance, end - s);
         s = end;
@@ -39,7 +41,8 @@ void flush(Wave& wave) {
 
 /// Fills slots with the samples of one pixel from the `begin`-th of the pattern on, as many as fit. Returns the first
 /// left.
-std::uint32_t fill(Wave& wave, std::uint32_t x, std::uint32_t y, const Pattern& pattern, std::uint32_t begin) {
+template <class Real>
+std::uint32_t fill(Wave<Real>& wave, std::uint32_t x, std::uint32_t y, const Pattern& pattern, std::uint32_t begin) {
     const Plan& plan = wave.plan;
     const bool one_cell = pattern.strata == 1;
     const double cell_width = 2 * plan.half_width() / plan.settings().width / pattern.strata;
@@ -57,11 +60,11 @@ std::uint32_t fill(Wave& wave, std::uint32_t x, std::uint32_t y, const Pattern& 
     const double step = one_cell ? 0 : cell_width;
     for (std::uint32_t s = first; s < end;) {
         std::uint32_t cell_x = begin % row;
-        const auto y_of_row = static_cast<float>(top - begin / row / visits * cell_height);
+        const auto y_of_row = static_cast<Real>(top - begin / row / visits * cell_height);
         for (; s < end && cell_x < row; ++s, ++cell_x) {
             slots.pixel[s] = pixel;
             slots.sample[s] = pattern.first + begin++;
-            slots.plane_x[s] = static_cast<float>(left + cell_x * step);
+            slots.plane_x[s] = static_cast<Real>(left + cell_x * step);
             slots.plane_y[s] = y_of_row;
         }
     }
@@ -80,18 +83,17 @@ std::uint32_t Tile::pixels() const {
 
 std::uint32_t choose_wave_size(const Plan& plan, std::uint32_t asked) {
     std::uint32_t size = asked != 0 ? std::min(asked, 1u << 20) : default_wave_size;
-    while (asked == 0 && size > kernels::widest &&
-           WaveStorage::bytes(plan.needs(), plan.settings().depth, size) > queue_limit)
-        size /= 2;
+    while (asked == 0 && size > kernels::widest && queue_bytes(plan, size) > queue_limit) size /= 2;
     return size;
 }
 
-bool render_tile(Wave& wave, const Task& task, const std::function<bool()>& interrupted) {
+template <class Real>
+bool render_tile(Wave<Real>& wave, const Task& task, const std::function<bool()>& interrupted) {
     const auto& [tile, pattern] = task;
     const RenderSettings& settings = wave.plan.settings();
-    wave.camera = wave.plan.camera();
-    wave.camera.cell_width = static_cast<float>(2 * wave.plan.half_width() / settings.width / pattern.strata);
-    wave.camera.cell_height = static_cast<float>(-2 * wave.plan.half_height() / settings.height / pattern.strata);
+    wave.camera = wave.tables.camera;
+    wave.camera.cell_width = static_cast<Real>(2 * wave.plan.half_width() / settings.width / pattern.strata);
+    wave.camera.cell_height = static_cast<Real>(-2 * wave.plan.half_height() / settings.height / pattern.strata);
     wave.contrasts.begin(pattern.strata, pattern.visits > 1);
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
@@ -109,5 +111,8 @@ bool render_tile(Wave& wave, const Task& task, const std::function<bool()>& inte
     flush(wave);
     return true;
 }
+
+template bool render_tile(Wave<float>&, const Task&, const std::function<bool()>&);
+template bool render_tile(Wave<double>&, const Task&, const std::function<bool()>&);
 
 }  // namespace orrery

@@ -56,6 +56,7 @@ std::uint32_t choose_wave_size(const Plan& plan, std::uint32_t asked);
 
 /// The samples of a task onto the wave's film, a wave at a time. `interrupted` is polled between
 /// waves and may be empty. Returns false when interrupted.
-bool render_tile(Wave& wave, const Task& task, const std::function<bool()>& interrupted);
+template <class Real>
+bool render_tile(Wave<Real>& wave, const Task& task, const std::function<bool()>& interrupted);
 
 }  // namespace orrery

@@ -24,20 +24,23 @@ struct WaveCounters {
 };
 
 /// Owned by one thread; the plan, the stages and the film are shared, the film's pixels by tile.
+template <class Real>
 struct Wave {
-    Wave(const Plan& the_plan, const kernels::Stages<float>& the_stages, Film& the_film, std::uint32_t slots)
+    Wave(const Plan& the_plan, const kernels::Stages<Real>& the_stages, Film& the_film, std::uint32_t slots)
         : plan(the_plan),
+          tables(the_plan.tables<Real>()),
           stages(the_stages),
           film(the_film),
-          camera(the_plan.camera()),
+          camera(tables.camera),
           storage(the_plan.needs(), the_plan.settings().depth, slots) {}
 
     const Plan& plan;
-    const kernels::Stages<float>& stages;
+    const Tables<Real>& tables;
+    const kernels::Stages<Real>& stages;
     Film& film;
-    kernels::CameraTable<float> camera;  ///< with the cells of the task being rendered
-    Contrasts contrasts;                 ///< of that task
-    WaveStorage storage;
+    kernels::CameraTable<Real> camera;  ///< with the cells of the task being rendered
+    Contrasts<Real> contrasts;          ///< of that task
+    WaveStorage<Real> storage;
     WaveCounters counters;
     std::uint32_t count = 0;  ///< slots in use
 };
@@ -47,8 +50,11 @@ Profile profile_of(const WaveCounters& counters, double seconds_per_tick);
 
 /// The pages: each takes a wave whose slots are filled to its end and leaves the radiance in the slots
 /// (trace_distances: the distance in all three channels).
-void trace_paths(Wave& wave);
-void trace_whitted(Wave& wave);
-void trace_distances(Wave& wave);
+template <class Real>
+void trace_paths(Wave<Real>& wave);
+template <class Real>
+void trace_whitted(Wave<Real>& wave);
+template <class Real>
+void trace_distances(Wave<Real>& wave);
 
 }  // namespace orrery

@@ -28,18 +28,22 @@ struct Carver {
 
 }  // namespace
 
-void WaveStorage::Free::operator()(std::byte* block) const { ::operator delete (block, std::align_val_t{cache_line}); }
+template <class Real>
+void WaveStorage<Real>::Free::operator()(std::byte* block) const {
+    ::operator delete (block, std::align_val_t{cache_line});
+}
 
-std::size_t WaveStorage::carve(std::byte* base, const Needs& needs, std::uint32_t depth) {
+template <class Real>
+std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::uint32_t depth) {
     Carver carver{base};
     const std::uint32_t padded = kernels::round_up(slot_count);
     const std::uint32_t capacity = kernels::ray_capacity(slot_count);
     const bool shades = needs.integrator != Integrator::depth;
 
-    const auto ray_fields = [&](kernels::RayQueue<float>& queue, std::size_t count) {
-        kernels::RayQueue<float>::each_field([&](const char*, auto member) {
-            using Queue = kernels::RayQueue<float>;
-            if constexpr (std::is_same_v<decltype(member), float * Queue::*>) {
+    const auto ray_fields = [&](kernels::RayQueue<Real>& queue, std::size_t count) {
+        kernels::RayQueue<Real>::each_field([&](const char*, auto member) {
+            using Queue = kernels::RayQueue<Real>;
+            if constexpr (std::is_same_v<decltype(member), Real * Queue::*>) {
                 if (member == &Queue::pdf && !needs.scattering_pdf) return;
                 if (member == &Queue::eta_scale && !needs.eta_scale) return;
             }
@@ -73,17 +77,28 @@ std::size_t WaveStorage::carve(std::byte* base, const Needs& needs, std::uint32_
     return carver.used;
 }
 
-std::size_t WaveStorage::bytes(const Needs& needs, std::uint32_t depth, std::uint32_t count) {
+template <class Real>
+std::size_t WaveStorage<Real>::bytes(const Needs& needs, std::uint32_t depth, std::uint32_t count) {
     WaveStorage counted(count);
     return counted.carve(nullptr, needs, depth);
 }
 
-WaveStorage::WaveStorage(const Needs& needs, std::uint32_t depth, std::uint32_t count) : WaveStorage(count) {
+template <class Real>
+WaveStorage<Real>::WaveStorage(const Needs& needs, std::uint32_t depth, std::uint32_t count) : WaveStorage(count) {
     const std::size_t size = bytes(needs, depth, count);
     block_.reset(static_cast<std::byte*>(::operator new (size, std::align_val_t{cache_line})));
     // Zero, so that lanes nobody wrote hold valid ids and slots; first touch is by the thread that owns the wave.
     std::memset(block_.get(), 0, size);
     carve(block_.get(), needs, depth);
 }
+
+std::size_t queue_bytes(const Plan& plan, std::uint32_t count) {
+    const auto bytes =
+        plan.settings().precision == Precision::binary64 ? WaveStorage<double>::bytes : WaveStorage<float>::bytes;
+    return bytes(plan.needs(), plan.settings().depth, count);
+}
+
+template class WaveStorage<float>;
+template class WaveStorage<double>;
 
 }  // namespace orrery

@@ -11,6 +11,7 @@
 namespace orrery {
 
 /// Queues for waves of up to `count` (pixel, sample) pairs, with the fields the plan needs. Owned by one thread.
+template <class Real>
 class WaveStorage {
 public:
     /// Throws std::bad_alloc.
@@ -20,15 +21,15 @@ public:
     static std::size_t bytes(const Needs& needs, std::uint32_t depth, std::uint32_t count);
 
     std::uint32_t slot_count;
-    kernels::SlotTable<float> slots{};
-    kernels::RayQueue<float> rays{};
-    kernels::HitQueue<float> hits{};
-    kernels::RayQueue<float> sorted_rays{};  ///< null fields without Needs::sort, as is the next
-    kernels::HitQueue<float> sorted_hits{};
-    kernels::LobeQueue<float> lobes{};
-    kernels::ShadowQueue<float> shadows{};
-    kernels::BranchStack<float> branches{};
-    std::uint32_t* live = nullptr;  ///< scratch of the stage `resume`, all zero
+    kernels::SlotTable<Real> slots{};
+    kernels::RayQueue<Real> rays{};
+    kernels::HitQueue<Real> hits{};
+    kernels::RayQueue<Real> sorted_rays{};  ///< null fields without Needs::sort, as is the next
+    kernels::HitQueue<Real> sorted_hits{};
+    kernels::LobeQueue<Real> lobes{};
+    kernels::ShadowQueue<Real> shadows{};
+    kernels::BranchStack<Real> branches{};
+    kernels::WordOf<Real>* live = nullptr;  ///< scratch of the stage `resume`, all zero
 
 private:
     struct Free {
@@ -40,5 +41,11 @@ private:
 
     std::unique_ptr<std::byte, Free> block_;
 };
+
+extern template class WaveStorage<float>;
+extern template class WaveStorage<double>;
+
+/// Bytes of all queues of one thread for waves of `count`, in the plan's precision.
+std::size_t queue_bytes(const Plan& plan, std::uint32_t count);
 
 }  // namespace orrery

@@ -12,6 +12,7 @@
 
 namespace orrery {
 
+template <class Real>
 class Workers {
 public:
     /// Throws std::invalid_argument where this machine does not run the ISA asked for.
@@ -32,14 +33,17 @@ public:
 private:
     const Plan& plan_;
     const RenderOptions& options_;
-    const kernels::Stages<float>& stages_;
+    const kernels::Stages<Real>& stages_;
     unsigned threads_;
     std::uint32_t wave_size_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::uint64_t first_tick_;
     tbb::global_control limit_;
     tbb::task_arena arena_;
-    tbb::enumerable_thread_specific<Wave> waves_;
+    tbb::enumerable_thread_specific<Wave<Real>> waves_;
 };
+
+extern template class Workers<float>;
+extern template class Workers<double>;
 
 }  // namespace orrery

@@ -49,7 +49,7 @@ TEST(Usage, RenderHelpNamesEveryOptionItsDefaultAndAnExample) {
                                "--roulette on|off",
                                "--tonemap sigmoid|linear|none",
                                "--isa auto|scalar|sse2|avx2|avx512",
-                               "--precision float",
+                               "--precision auto|float|double",
                                "--stats FILE.json",
                                "--quiet",
                                "--wave-size N",
@@ -133,7 +133,7 @@ TEST(Usage, ChoicesNameWhatThereIs) {
     EXPECT_THAT(refusal_with({"--roulette", "yes"}), HasSubstr("on|off"));
     EXPECT_THAT(refusal_with({"--tonemap", "aces"}), HasSubstr("sigmoid|linear|none"));
     EXPECT_THAT(refusal_with({"--isa", "avx9000"}), HasSubstr("supports: scalar"));
-    EXPECT_THAT(refusal_with({"--precision", "double"}), HasSubstr("float"));
+    EXPECT_THAT(refusal_with({"--precision", "half"}), HasSubstr("auto|float|double"));
 }
 
 TEST(Usage, OutputsHaveAKnownEndingAndAreDifferentFiles) {

@@ -191,7 +191,7 @@ TEST_P(SortTest, CapacityOfWaveStorageHoldsEverySplit) {
         kinds.push_back(scattering_count - 1);
         const Wave w = wave_of(kinds);
         const auto count = static_cast<std::uint32_t>(kinds.size());
-        const WaveStorage storage(needs, 5, count);
+        const WaveStorage<float> storage(needs, 5, count);
         Runs runs;
         stages.sort_by_scattering(world.spheres, all_kinds, *w.rays, *w.hits, count, storage.sorted_rays,
                                   storage.sorted_hits, runs);

@@ -263,7 +263,7 @@ TEST_P(WhittedTest, ATreeIsWalkedDepthFirst) {
     needs.integrator = Integrator::whitted;
     needs.scattering = 1u << static_cast<unsigned>(Scattering::dielectric);
     needs.branches = true;
-    WaveStorage storage(needs, depth, slot_count);
+    WaveStorage<float> storage(needs, depth, slot_count);
     Numbers random(1);
     std::uint32_t count = slot_count;
     for (std::uint32_t s = 0; s < slot_count; ++s) {

@@ -18,7 +18,7 @@ Frame frame_of(const dvec3& position, const dvec3& target) {
     scene.camera.position = position;
     scene.camera.target = target;
     const Plan plan(scene);
-    const auto& c = plan.camera();
+    const auto& c = plan.tables().camera;
     EXPECT_EQ((dvec3{c.px, c.py, c.pz}), position);
     return {{c.xx, c.xy, c.xz}, {c.yx, c.yy, c.yz}, {c.zx, c.zy, c.zz}};
 }
@@ -75,13 +75,13 @@ TEST(ImagePlane, IsCutIntoPixelsAndCells) {
         EXPECT_NEAR(plan.half_height(), 1, 1e-15);
         EXPECT_NEAR(plan.half_width(), 1.5, 1e-15);
         EXPECT_EQ(plan.strata(), 3u);
-        EXPECT_FLOAT_EQ(plan.camera().cell_width, 3.0f / 30 / 3);
-        EXPECT_FLOAT_EQ(plan.camera().cell_height, -2.0f / 10 / 3) << "down";
+        EXPECT_FLOAT_EQ(plan.tables().camera.cell_width, 3.0f / 30 / 3);
+        EXPECT_FLOAT_EQ(plan.tables().camera.cell_height, -2.0f / 10 / 3) << "down";
     }
     scene.settings.estimator = Estimator::uniform;
     const Plan plan(scene);
-    EXPECT_FLOAT_EQ(plan.camera().cell_width, 3.0f / 30) << "the pixel is one cell";
-    EXPECT_FLOAT_EQ(plan.camera().cell_height, -2.0f / 10);
+    EXPECT_FLOAT_EQ(plan.tables().camera.cell_width, 3.0f / 30) << "the pixel is one cell";
+    EXPECT_FLOAT_EQ(plan.tables().camera.cell_height, -2.0f / 10);
 }
 
 TEST(Lens, HasHalfTheApertureForRadius) {
@@ -89,8 +89,8 @@ TEST(Lens, HasHalfTheApertureForRadius) {
     scene.camera.aperture = 0.5;
     scene.camera.focal_distance = 7;
     const Plan plan(scene);
-    EXPECT_EQ(plan.camera().lens_radius, 0.25f);
-    EXPECT_EQ(plan.camera().focal_distance, 7.0f);
+    EXPECT_EQ(plan.tables().camera.lens_radius, 0.25f);
+    EXPECT_EQ(plan.tables().camera.focal_distance, 7.0f);
 }
 
 TEST(EnclosingDistance, ExceedsEveryHit) {
@@ -105,12 +105,12 @@ TEST(EnclosingDistance, ExceedsEveryHit) {
             double farthest = 0;  // from the far rim of the lens to the far side of a sphere
             for (const Primitive& p : scene.primitives)
                 farthest = std::max(farthest, glm::length(p.centre - scene.camera.position) + p.radius + aperture / 2);
-            EXPECT_GT(Plan(scene).enclosing_distance(), farthest);
-            EXPECT_TRUE(std::isfinite(Plan(scene).enclosing_distance()));
+            EXPECT_GT(Plan(scene).tables().enclosing_distance, farthest);
+            EXPECT_TRUE(std::isfinite(Plan(scene).tables().enclosing_distance));
         }
     }
-    EXPECT_GT(Plan(empty_world()).enclosing_distance(), 0);
-    EXPECT_TRUE(std::isfinite(Plan(empty_world()).enclosing_distance()));
+    EXPECT_GT(Plan(empty_world()).tables().enclosing_distance, 0);
+    EXPECT_TRUE(std::isfinite(Plan(empty_world()).tables().enclosing_distance));
 }
 
 TEST(Samples, AreRoundedDownToASquareWhenStratified) {

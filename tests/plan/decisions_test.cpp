@@ -62,7 +62,7 @@ TEST(Decisions, SayWhatTheNeedsSay) {
     for_each_plan([](const Plan& plan) {
         const Needs& needs = plan.needs();
         const auto all = plan.decisions();
-        EXPECT_EQ(decision(all, "intersect: tree").runs, plan.spheres().tree.count != 0);
+        EXPECT_EQ(decision(all, "intersect: tree").runs, plan.tables().spheres.tree.count != 0);
         EXPECT_EQ(decision(all, "generate: lens").runs, needs.lens);
         if (needs.integrator == Integrator::depth) {
             EXPECT_FALSE(decision(all, "shade, shadow, roulette").runs);

@@ -11,19 +11,19 @@ using kernels::Scattering;
 using enum MaterialKind;
 
 Scattering way_of(const Plan& plan, std::size_t sphere) {
-    return static_cast<Scattering>(plan.spheres().surface[sphere] >> kernels::surface_material_bits &
+    return static_cast<Scattering>(plan.tables().spheres.surface[sphere] >> kernels::surface_material_bits &
                                    kernels::surface_kind_mask);
 }
 
 bool emits(const Plan& plan, std::size_t sphere) {
-    return (plan.spheres().surface[sphere] & kernels::surface_emits) != 0;
+    return (plan.tables().spheres.surface[sphere] & kernels::surface_emits) != 0;
 }
 
 TEST(SphereTable, HoldsPrimitivesInTheirOrder) {
     Scene scene = world({glossy, diffuse, glossy});
     scene.primitives[2] = {"", {1, 2, 3}, 4, 0, {}};
     const Plan plan(scene);
-    const auto& s = plan.spheres();
+    const auto& s = plan.tables().spheres;
     ASSERT_EQ(s.count, 3u);
     EXPECT_EQ((dvec3{s.cx[2], s.cy[2], s.cz[2]}), (dvec3{1, 2, 3}));
     EXPECT_EQ(s.radius[2], 4);
@@ -44,7 +44,7 @@ TEST(SphereTable, HoldsManyPrimitivesInTheirTreesOrder) {
         if (i % 3 != 0) p.emission.reset();
     }
     const Plan plan(scene);
-    const auto& s = plan.spheres();
+    const auto& s = plan.tables().spheres;
     ASSERT_EQ(s.count, 200u);
     ASSERT_GT(s.tree.count, 0u);
     std::uint32_t moved = 0, lights = 0;
@@ -59,7 +59,7 @@ TEST(SphereTable, HoldsManyPrimitivesInTheirTreesOrder) {
         EXPECT_EQ(s.surface[k] & kernels::surface_material_mask, p.material);
         ASSERT_EQ(emits(plan, k), p.emission.has_value());
         if (!p.emission) continue;
-        const auto& light = plan.area_lights()[s.light[k]];
+        const auto& light = plan.tables().area_lights[s.light[k]];
         EXPECT_EQ(light.sphere, k);
         EXPECT_EQ(light.r, p.emission->r);
         EXPECT_EQ(light.radius, s.radius[k]);
@@ -90,21 +90,21 @@ TEST(Lights, AreTheSpheresThatEmitAndThePoints) {
     const Plan plan(scene);
     EXPECT_FALSE(emits(plan, 0));
     EXPECT_FALSE(emits(plan, 1)) << "switched off";
-    ASSERT_EQ(plan.area_lights().size(), 2u);
+    ASSERT_EQ(plan.tables().area_lights.size(), 2u);
     for (std::uint32_t i = 0; i < 2; ++i) {
         const std::uint32_t sphere = i + 2;
-        const auto& light = plan.area_lights()[i];
+        const auto& light = plan.tables().area_lights[i];
         EXPECT_TRUE(emits(plan, sphere));
-        EXPECT_EQ(plan.spheres().light[sphere], i);
+        EXPECT_EQ(plan.tables().spheres.light[sphere], i);
         EXPECT_EQ(light.sphere, sphere);
         EXPECT_EQ((dvec3{light.cx, light.cy, light.cz}), scene.primitives[sphere].centre);
         EXPECT_EQ(light.radius, 1);
         EXPECT_EQ((dvec3{light.r, light.g, light.b}), *scene.primitives[sphere].emission);
-        const auto& table = plan.emission();
+        const auto& table = plan.tables().emission;
         EXPECT_EQ((dvec3{table.r[i], table.g[i], table.b[i]}), *scene.primitives[sphere].emission);
     }
-    ASSERT_EQ(plan.point_lights().size(), 1u);
-    const auto& point = plan.point_lights()[0];
+    ASSERT_EQ(plan.tables().point_lights.size(), 1u);
+    const auto& point = plan.tables().point_lights[0];
     EXPECT_EQ((dvec3{point.px, point.py, point.pz}), (dvec3{0, 5, 0}));
     EXPECT_EQ((dvec3{point.r, point.g, point.b}), (dvec3{7, 8, 9}));
 }
@@ -113,7 +113,7 @@ TEST(MaterialTable, HoldsEveryNumber) {
     Scene scene = world({translucent});
     scene.materials[0] = {"", translucent, {0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, 1.7, 0.8};
     const Plan plan(scene);
-    const auto& m = plan.materials();
+    const auto& m = plan.tables().materials;
     EXPECT_EQ(m.count, 1u);
     EXPECT_EQ(m.rho_r[0], 0.1f);
     EXPECT_EQ(m.rho_g[0], 0.2f);
@@ -127,21 +127,21 @@ TEST(MaterialTable, HoldsEveryNumber) {
 
 TEST(Background, IsThatOfTheScene) {
     Scene scene = empty_world();
-    EXPECT_FALSE(Plan(scene).emission().has_background);
+    EXPECT_FALSE(Plan(scene).tables().emission.has_background);
     scene.background = {0.25, 0, 4};
     const Plan plan(scene);
-    EXPECT_TRUE(plan.emission().has_background);
-    EXPECT_EQ(plan.emission().background_r, 0.25f);
-    EXPECT_EQ(plan.emission().background_b, 4.0f);
+    EXPECT_TRUE(plan.tables().emission.has_background);
+    EXPECT_EQ(plan.tables().emission.background_r, 0.25f);
+    EXPECT_EQ(plan.tables().emission.background_b, 4.0f);
 }
 
 // Under AddressSanitizer this is the test that columns are padded, an empty scene's too.
 TEST(Tables, CanBeReadAWholeVectorBehindTheEnd) {
     for (const Scene& scene : {empty_world(), world({diffuse, dielectric})}) {
         const Plan plan(scene);
-        const auto& s = plan.spheres();
-        const auto& m = plan.materials();
-        const auto& e = plan.emission();
+        const auto& s = plan.tables().spheres;
+        const auto& m = plan.tables().materials;
+        const auto& e = plan.tables().emission;
         float sum = 0;
         std::uint32_t words = 0;
         for (std::uint32_t i = 0; i < kernels::widest; ++i) {

@@ -86,7 +86,7 @@ TEST(EmptyScene, ShowsTheEnclosingVolume) {
             for (const Integrator integrator : all_integrators) {
                 scene.settings.integrator = integrator;
                 const RenderResult result = render(scene, {.isa = isa});
-                const float far = 1 / (1 + Plan(scene).enclosing_distance());
+                const float far = 1 / (1 + Plan(scene).tables().enclosing_distance);
                 const Rgb expected = integrator == Integrator::depth ? Rgb{far, far, far} : Rgb{0.25f, 0.5f, 3};
                 EXPECT_EQ(result.image.pixels, std::vector<Rgb>(256, expected)) << name_of(integrator);
                 EXPECT_EQ(result.stats.shadow_rays, 0u);
@@ -109,7 +109,7 @@ TEST(Depth, PutsTheEnclosingVolumeBeyondEverything) {
     Scene scene = everything(Integrator::depth);
     scene.settings.samples = 1;
     scene.settings.width = scene.settings.height = 64;
-    const float far = 1 / (1 + Plan(scene).enclosing_distance());
+    const float far = 1 / (1 + Plan(scene).tables().enclosing_distance);
     int misses = 0, hits = 0;
     for (const Rgb& p : image_of(scene).pixels) {
         EXPECT_EQ(p, (Rgb{p.r, p.r, p.r}));

@@ -1,0 +1,61 @@
+// What the kernels read of a scene, in float or in double, and the columns that own it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kernels/tables.hpp"
+#include "plan/tree.hpp"
+#include "scene/scene.hpp"
+
+namespace orrery {
+
+/// The camera as the scene has it, in double, and how its image is divided.
+struct CameraFrame {
+    glm::dvec3 right, up, ahead;             ///< orthonormal
+    double half_width = 0, half_height = 0;  ///< of the image plane at distance 1
+    double cell_width = 0, cell_height = 0;  ///< of a pixel's cell there
+};
+
+/// The tables stay valid for the life of this, moves included. Every number of the scene is rounded to Real once.
+template <class Real>
+class Tables {
+public:
+    /// Sphere k of the table is primitive order[k]; `tree` is over them in that order, empty for a linear table.
+    Tables(const Scene& scene, const CameraFrame& frame, const std::vector<std::uint32_t>& order, Tree tree);
+    Tables(const Tables&) = delete;
+    Tables& operator=(const Tables&) = delete;
+
+    kernels::CameraTable<Real> camera{};
+    kernels::SphereTable<Real> spheres;
+    kernels::MaterialTable<Real> materials;
+    kernels::EmissionTable<Real> emission;
+    std::vector<kernels::PointLight<Real>> point_lights;
+    std::vector<kernels::AreaLight<Real>> area_lights;
+    /// The enclosing volume's distance for DEPTH: larger than any hit distance in the scene.
+    Real enclosing_distance = 1;
+
+private:
+    using Word = kernels::WordOf<Real>;
+
+    void put_camera(const Scene& scene, const CameraFrame& frame);
+    void put_materials(const Scene& scene);
+    void put_spheres(const Scene& scene, const std::vector<std::uint32_t>& order);
+    void put_lights(const Scene& scene);
+
+    std::vector<kernels::TreeNode<Real>> nodes_;
+    std::array<std::vector<Real>, 6> sphere_columns_;    // cx cy cz radius, its square and inverse
+    std::array<std::vector<Word>, 2> sphere_words_;      // surface light
+    std::array<std::vector<Real>, 8> material_columns_;  // rho, tau, eta, roughness
+    std::array<std::vector<Real>, 3> emission_columns_;
+};
+
+extern template class Tables<float>;
+extern template class Tables<double>;
+
+/// How a surface of this material scatters under an integrator.
+kernels::Scattering scattering_of(const Material& material, Integrator integrator);
+/// A light that is switched off is none.
+bool shines(const glm::dvec3& light);
+
+}  // namespace orrery
