@@ -4,7 +4,8 @@ namespace orrery {
 
 namespace {
 
-/// (pixel, sample) pairs per wave: the queues of 2048 take about half of a 1 MiB L2, in double all of it.
+/// (pixel, sample) pairs per wave: the queues of 2048 take about half of a 1 MiB L2. In double they take all of it, and
+/// half as many are no faster.
 constexpr std::uint32_t default_wave_size = 2048;
 /// What one thread's queues may take; Whitted's branch stacks make waves smaller, nothing else does.
 constexpr std::size_t queue_limit = std::size_t{4} << 20;
