@@ -1,0 +1,124 @@
+// `orrery_tradeoff`: what each option costs and buys, measured; bench/TRADEOFF.md, its plots and its table.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <numeric>
+#include <random>
+#include <thread>
+
+#include "bench/tradeoff/output.hpp"
+#include "scene/read.hpp"
+
+namespace fs = std::filesystem;
+using namespace orrery;
+using namespace orrery::tradeoff;
+
+namespace {
+
+struct Arguments {
+    double seconds = 540;
+    bool quick = false;
+    double pixels = 64 * 64;
+    fs::path scenes = "scenes", cache = "build/tradeoff", folder = "bench";
+    std::vector<std::string> names = {"assignment_01", "assignment_02",           "assignment_03",    "assignment_04",
+                                      "assignment_05", "assignment_06",           "assignment_07",    "assignment_08",
+                                      "showcase",      "bench/lamp_behind_glass", "bench/many_lights"};
+};
+
+/// Of the time: what the references get, and what goes by for finding out how fast everything is.
+constexpr double reference_share = 0.2, pilot_share = 0.1;
+constexpr double planned_rounds = 12;
+constexpr std::uint32_t least_rounds = 3;
+
+class Clock {
+public:
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Subject read_subject(const std::string& name, const Arguments& arguments, double processor_seconds) {
+    const fs::path file = arguments.scenes / (name + ".json");
+    ReadResult read = read_scene(file);
+    if (!read.scene) {
+        std::string faults;
+        for (const Diagnostic& fault : read.diagnostics) faults += format_diagnostic(file.string(), fault) + "\n";
+        throw std::runtime_error(faults);
+    }
+    Subject subject{fs::path(name).filename().string(), std::move(*read.scene), {}, {}};
+    subject.usual = usual_settings(subject.scene.settings, arguments.pixels);
+    subject.reference = cached_reference(subject.scene, subject.usual, processor_seconds, arguments.cache);
+    fmt::print(stderr, "{}: reference of {:.0f} samples, {:.1f} s{}, its own error {:.2g} %\n", subject.name,
+               subject.reference.samples, subject.reference.seconds, subject.reference.from_cache ? " (cached)" : "",
+               100 * std::sqrt(subject.reference.mrse));
+    return subject;
+}
+
+/// Rounds over all cells in random order, so that a busy minute of the machine is shared by all, until time is up.
+std::uint32_t measure(const std::vector<Subject>& subjects, std::vector<Cell>& cells, const Clock& clock, double end) {
+    std::vector<std::size_t> order(cells.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::mt19937 shuffle(1);
+    std::uint32_t round = 0;
+    for (double last = 0; round < least_rounds || clock.seconds() + last < end; ++round) {
+        const double start = clock.seconds();
+        std::ranges::shuffle(order, shuffle);
+        for (const std::size_t i : order) measure_round(subjects[cells[i].scene], cells[i], round);
+        last = clock.seconds() - start;
+        fmt::print(stderr, "round {} took {:.1f} s, {:.0f} of {:.0f} s are over\n", round + 1, last, clock.seconds(),
+                   end);
+    }
+    return round;
+}
+
+void run(const Arguments& arguments) {
+    const Clock clock;
+    const double threads = std::max(1u, std::thread::hardware_concurrency());
+    const double processor_seconds = arguments.seconds * threads;
+    const double scenes = static_cast<double>(arguments.names.size());
+
+    Outcome outcome;
+    for (const std::string& name : arguments.names)
+        outcome.subjects.push_back(read_subject(name, arguments, processor_seconds * reference_share / scenes));
+    // Levels have four times the samples each: all of them take 4/3 of the last.
+    const double variants = static_cast<double>(all_variants().size());
+    outcome.last_level_seconds =
+        processor_seconds * (1 - reference_share - pilot_share) * 3 / 4 / (planned_rounds * scenes * variants);
+    std::vector<Cell> cells;
+    for (std::size_t i = 0; i < outcome.subjects.size(); ++i)
+        for (Cell& cell : cells_of(outcome.subjects[i], i, outcome.last_level_seconds))
+            cells.push_back(std::move(cell));
+    fmt::print(stderr, "{} cells after {:.0f} s\n", cells.size(), clock.seconds());
+    outcome.rounds = measure(outcome.subjects, cells, clock, arguments.seconds);
+    for (const Cell& cell : cells) outcome.cells.push_back(summarise(cell, outcome.subjects[cell.scene].reference));
+    outcome.seconds = clock.seconds();
+    write_all(outcome, arguments.folder);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app("Measures error against time for the options that trade one for the other.");
+    app.add_option("--time", arguments.seconds, "Seconds to take, about; 540 unless told")->check(CLI::Range(5, 86400));
+    app.add_flag("--quick", arguments.quick, "A tenth of the time, for trying it out");
+    app.add_option("--pixels", arguments.pixels, "Of an image, about; 4096 unless told")
+        ->check(CLI::Range(16, 1 << 20));
+    app.add_option("--only", arguments.names, "Scenes, without .json")->delimiter(',');
+    app.add_option("--scenes", arguments.scenes, "Folder of the scenes");
+    app.add_option("--cache", arguments.cache, "Folder that keeps references from one run to the next");
+    app.add_option("--folder", arguments.folder, "Where TRADEOFF.md is, and plots and results go");
+    CLI11_PARSE(app, argc, argv);
+    if (arguments.quick) arguments.seconds /= 10;
+    try {
+        run(arguments);
+    } catch (const std::exception& fault) {
+        fmt::print(stderr, "orrery_tradeoff: {}\n", fault.what());
+        return EXIT_FAILURE;
+    }
+    return EXIT_SUCCESS;
+}

@@ -1,0 +1,93 @@
+#include "bench/tradeoff/output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <span>
+#include <sstream>
+#include <stdexcept>
+
+#include "bench/report/page.hpp"
+#include "image/atomic_file.hpp"
+
+namespace fs = std::filesystem;
+
+namespace orrery::tradeoff {
+
+namespace {
+
+std::string text_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    if (!stream) throw std::runtime_error(fmt::format("cannot read {}", file.string()));
+    return text.str();
+}
+
+void write(const fs::path& file, const std::string& text) {
+    fs::create_directories(file.parent_path());
+    write_atomically(file, std::as_bytes(std::span(text)));
+}
+
+}  // namespace
+
+std::vector<const CellSummary*> Outcome::cells_of(std::size_t subject) const {
+    std::vector<const CellSummary*> of_subject;
+    for (const CellSummary& cell : cells)
+        if (cell.scene == subject) of_subject.push_back(&cell);
+    return of_subject;
+}
+
+const CellSummary& Outcome::defaults(std::size_t subject) const { return *cells_of(subject).front(); }
+
+const CellSummary& best_of(const Outcome& outcome, std::size_t subject) {
+    const std::vector<const CellSummary*> cells = outcome.cells_of(subject);
+    const auto efficiency = [](const CellSummary* cell) {
+        return cell->variant.is_about_time() ? 0 : cell->efficiency().value;
+    };
+    return **std::ranges::max_element(cells, {}, efficiency);
+}
+
+std::vector<Effect> effects_of(const Outcome& outcome) {
+    std::vector<Effect> effects;
+    for (const Variant& variant : all_variants()) {
+        if (variant.choices.size() != 1) continue;
+        Effect effect{variant.choices.front(), {}, {}, {}};
+        for (const CellSummary& cell : outcome.cells) {
+            const Figure& usual = outcome.defaults(cell.scene).efficiency();
+            if (cell.name != variant.name() || !(cell.efficiency().value > 0) || !(usual.value > 0)) continue;
+            effect.subjects.push_back(cell.scene);
+            effect.gains.push_back(variant.is_about_time() ? ratio(outcome.defaults(cell.scene).levels.back().seconds,
+                                                                   cell.levels.back().seconds)
+                                                           : ratio(cell.efficiency(), usual));
+        }
+        if (effect.gains.empty()) continue;
+        effect.mean = geometric_mean(effect.gains);
+        effects.push_back(std::move(effect));
+    }
+    return effects;
+}
+
+std::string csv_of(const Outcome& outcome) {
+    std::string csv =
+        "scene,options,samples,renders,seconds,seconds_error,mrse,mrse_error,efficiency,efficiency_error,slope,"
+        "slope_error,floor,floor_error\n";
+    for (const CellSummary& cell : outcome.cells)
+        for (const LevelSummary& l : cell.levels)
+            csv +=
+                fmt::format("{},{},{:.6g},{},{:.4g},{:.2g},{:.5g},{:.2g},{:.4g},{:.2g},{:.4f},{:.4f},{:.3g},{:.2g}\n",
+                            outcome.subjects[cell.scene].name, cell.name, l.samples, l.renders, l.seconds.value,
+                            l.seconds.error, l.mrse.value, l.mrse.error, l.efficiency.value, l.efficiency.error,
+                            cell.slope.value, cell.slope.error, cell.floor.value, cell.floor.error);
+    return csv;
+}
+
+void write_all(const Outcome& outcome, const fs::path& folder) {
+    const std::string page = bench::with_blocks(text_of(folder / "TRADEOFF.md"), blocks_of(outcome));
+    for (const auto& [name, svg] : plots_of(outcome)) write(folder / "plots" / name, svg);
+    write(folder / "results" / "tradeoff.csv", csv_of(outcome));
+    write(folder / "TRADEOFF.md", page);
+}
+
+}  // namespace orrery::tradeoff

@@ -1,0 +1,46 @@
+// The ways to render a scene that are compared: the options that trade accuracy for time, and combinations of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kernels/isa.hpp"
+#include "scene/scene.hpp"
+
+namespace orrery::tradeoff {
+
+/// All that a variant may choose.
+struct Setup {
+    RenderSettings settings;
+    Isa isa = best_isa();
+    bool adaptive = false;  ///< samples go where the error is
+};
+
+/// One word of one option, as on the command line: {"--transport", "nee"}.
+struct Choice {
+    std::string option, word;
+    void (*choose)(Setup&, std::size_t word) = nullptr;  ///< puts it into a setup
+    std::size_t index = 0;                               ///< of the word, for `choose`
+};
+
+/// The usual setup with some choices made. No choice: the program's defaults.
+struct Variant {
+    std::vector<Choice> choices;
+
+    Setup setup(const RenderSettings& usual) const;
+    /// "--transport nee --roulette off"; "defaults" where nothing is chosen.
+    std::string name() const;
+    bool chooses(const std::string& option) const;
+    /// Whether it chooses instruction set or number format, which change time, and of the image hardly anything.
+    bool is_about_time() const { return chooses("--isa") || chooses("--precision"); }
+};
+
+/// The defaults first; then all combinations of the options that say how light is sampled; then each other option by
+/// itself. An option that the library's settings gain is one row in variants.cpp.
+std::vector<Variant> all_variants();
+
+/// What the scene says to compute, at `pixels` pixels or about, as the program would by default: whatever the scene
+/// says about the options compared does not count.
+RenderSettings usual_settings(const RenderSettings& of_scene, double pixels);
+
+}  // namespace orrery::tradeoff

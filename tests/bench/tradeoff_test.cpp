@@ -1,0 +1,138 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "bench/report/page.hpp"
+#include "bench/tradeoff/output.hpp"
+#include "scene/read.hpp"
+
+namespace orrery::tradeoff {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Slope, OfAPowerLawIsItsExponent) {
+    std::vector<double> x;
+    std::vector<Figure> y;
+    for (const double n : {4.0, 16.0, 100.0}) {
+        x.push_back(std::log(n));
+        y.push_back({std::log(3 / std::pow(n, 1.5)), 0.1});
+    }
+    EXPECT_NEAR(slope_of(x, y).value, -1.5, 1e-12);
+    // Equal errors e: e / sqrt(sum of (x - mean)^2), within what keeps weights finite.
+    EXPECT_NEAR(slope_of(x, y).error, 0.1 / std::sqrt(5.23188), 1e-4);
+    EXPECT_TRUE(std::isinf(slope_of({1, 1}, {{1, 1}, {2, 1}}).error));
+}
+
+TEST(Ratio, AddsRelativeErrorsInQuadrature) {
+    const Figure r = ratio({6, 0.6 * 3}, {2, 0.4 * 2});
+    EXPECT_NEAR(r.value, 3, 1e-12);
+    EXPECT_NEAR(r.error, 3 * 0.5, 1e-12);
+}
+
+TEST(Variants, BeginWithTheDefaultsAndHaveNamesOfTheirOwn) {
+    const std::vector<Variant> variants = all_variants();
+    EXPECT_EQ(variants.front().name(), "defaults");
+    std::vector<std::string> names;
+    for (const Variant& variant : variants) names.push_back(variant.name());
+    EXPECT_THAT(names, ::testing::Contains("--transport naive --estimator uniform --roulette off"));
+    EXPECT_THAT(names, ::testing::Contains("--precision double"));
+    std::ranges::sort(names);
+    EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
+}
+
+/// A ball on the ground under a lamp, 16 x 16 pixels.
+class Tradeoff : public ::testing::Test {
+protected:
+    static constexpr std::uint32_t rounds = 8;
+
+    static void SetUpTestSuite() {
+        const std::filesystem::path root = ORRERY_ROOT;
+        ReadResult read = read_scene(root / "scenes/tests/diffuse_area.json");
+        ASSERT_TRUE(read.scene);
+        subject = new Subject{"ball", std::move(*read.scene), {}, {}};
+        subject->usual = usual_settings(subject->scene.settings, 256);
+        subject->reference = make_reference(subject->scene, subject->usual, std::uint32_t{24});
+    }
+    static void TearDownTestSuite() { delete subject; }
+
+    static CellSummary measured(const Variant& variant, std::uint32_t depth) {
+        Cell cell{0, variant, variant.setup(subject->usual), levels_up_to(8)};
+        cell.setup.settings.depth = depth;
+        for (std::uint32_t round = 0; round < rounds; ++round) measure_round(*subject, cell, round);
+        return summarise(cell, subject->reference);
+    }
+
+    static Variant variant(const std::string& name) { return *std::ranges::find(all_variants_, name, &Variant::name); }
+
+    static inline Subject* subject = nullptr;
+    static inline const std::vector<Variant> all_variants_ = all_variants();
+};
+
+TEST_F(Tradeoff, IndependentSamplesHaveSlopeMinusOneAndNoBias) {
+    const CellSummary uniform = measured(variant("--estimator uniform"), subject->usual.depth);
+    ASSERT_EQ(uniform.levels.size(), 4u);
+    EXPECT_EQ(uniform.levels.front().samples, 1);
+    EXPECT_EQ(uniform.levels.back().samples, 64);
+    EXPECT_NEAR(uniform.slope.value, -1, 0.08);
+    EXPECT_FALSE(uniform.biased()) << uniform.floor.value << " +- " << uniform.floor.error;
+    EXPECT_FALSE(uniform.flattening());
+    for (const LevelSummary& level : uniform.levels) {
+        EXPECT_EQ(level.renders, rounds);
+        EXPECT_GT(level.mrse.value, 0);
+        EXPECT_GT(level.seconds.value, 0);
+        EXPECT_TRUE(std::isfinite(level.efficiency.value) && std::isfinite(level.efficiency.error));
+    }
+}
+
+TEST_F(Tradeoff, StratifiedSamplesAreUnbiased) {
+    const CellSummary usual = measured({}, subject->usual.depth);
+    EXPECT_LT(usual.slope.value, -0.92);
+    EXPECT_FALSE(usual.biased()) << usual.floor.value << " +- " << usual.floor.error;
+}
+
+TEST_F(Tradeoff, PathsCutShortAreReportedAsBias) {
+    const CellSummary cut = measured({}, 1);
+    EXPECT_TRUE(cut.biased()) << cut.floor.value << " +- " << cut.floor.error;
+    EXPECT_TRUE(cut.flattening()) << cut.slope.value << " +- " << cut.slope.error;
+}
+
+TEST_F(Tradeoff, TheReferenceKnowsItsError) {
+    // Another of other seeds and as many samples differs by the errors of both.
+    const Reference coarse = make_reference(subject->scene, subject->usual, std::uint32_t{6});
+    double sum = 0;
+    for (std::size_t i = 0; i < coarse.image.pixels.size(); ++i) {
+        for (float Rgb::*channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+            const double t = subject->reference.image.pixels[i].*channel;
+            sum += std::pow(coarse.image.pixels[i].*channel - t, 2) / (t * t + 0.01) / 3;
+        }
+    }
+    const double mrse = sum / static_cast<double>(coarse.image.pixels.size());
+    EXPECT_NEAR(coarse.mrse / mrse, 1, 0.3);
+}
+
+TEST_F(Tradeoff, FillsEveryBlockOfItsPageWithNumbers) {
+    Outcome outcome{.subjects = {*subject}, .rounds = rounds};
+    for (const char* name : {"defaults", "--transport nee", "--estimator uniform"})
+        outcome.cells.push_back(measured(variant(name), subject->usual.depth));
+    outcome.cells.push_back(measured(variant("--roulette off"), 1));
+
+    std::ifstream stream(std::filesystem::path(ORRERY_ROOT) / "bench/TRADEOFF.md");
+    std::ostringstream empty;
+    empty << stream.rdbuf();
+    const std::string page = bench::with_blocks(empty.str(), blocks_of(outcome));
+    EXPECT_THAT(page, AllOf(HasSubstr("`--estimator uniform`: "), HasSubstr("ball, --roulette off: **bias**"),
+                            Not(HasSubstr("nan")), Not(HasSubstr(" inf"))));
+    EXPECT_THAT(csv_of(outcome), AllOf(HasSubstr("ball,--transport nee,64,8,"), Not(HasSubstr("nan"))));
+    for (const auto& [name, svg] : plots_of(outcome))
+        EXPECT_THAT(svg, AllOf(HasSubstr("</svg>"), Not(HasSubstr("nan"))));
+}
+
+}  // namespace
+}  // namespace orrery::tradeoff
