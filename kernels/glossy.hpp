@@ -38,7 +38,8 @@ ORRERY_INLINE GlossySample<typename V::F> sample_glossy(const Vec3<typename V::F
     const F length2 = dot(sum, sum);
     const F inverse_length = F(1) / root(length2);
     const F sin2 = beta * beta * neg_mul_add(mu, mu, F(1)) * (inverse_length * inverse_length);
-    const F numerator = neg_mul_add(F(2), sin2, mul_add(beta, beta, F(1)));
+    // At least 1 - beta^2: what rounding makes of it for roughnesses close to 1 shall not be negative.
+    const F numerator = max(neg_mul_add(F(2), sin2, mul_add(beta, beta, F(1))), F(0));
     const F denominator =
         F(static_cast<typename V::Real>(2 * std::numbers::pi)) * beta * beta * magnitude(mu + beta) * inverse_length;
     return {sum * inverse_length, numerator / (denominator * glossy_side_probability(lobe_dot_n, beta))};

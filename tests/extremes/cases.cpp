@@ -23,6 +23,8 @@ std::vector<Case> all_cases() {
     std::vector<Case> cases;
     add_ray_and_sphere(cases);
     add_leaving(cases);
+    add_light(cases);
+    add_material(cases);
     return in_order_of_the_table(cases);
 }
 

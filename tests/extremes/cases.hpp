@@ -25,5 +25,7 @@ std::vector<Case> all_cases();
 
 void add_ray_and_sphere(std::vector<Case>& cases);
 void add_leaving(std::vector<Case>& cases);
+void add_light(std::vector<Case>& cases);
+void add_material(std::vector<Case>& cases);
 
 }  // namespace orrery::extremes

@@ -40,12 +40,9 @@ Ray<typename V::Real> leaving(const Spheres<typename V::Real>& world, const Ray<
             side ^= inside_bit;
         }
     }
-    const auto scalar = [](const auto& v) {
-        return kernels::Vec3<Real>{first_lane(v.x), first_lane(v.y), first_lane(v.z)};
-    };
     Ray<Real> result;
-    result.origin = scalar(vertex.position);
-    result.direction = scalar(out);
+    result.origin = first_lanes<V>(vertex.position);
+    result.direction = first_lanes<V>(out);
     result.left = hit.sphere() | side;
     return result;
 }

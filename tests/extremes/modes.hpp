@@ -51,4 +51,9 @@ auto first_lane(const T& value) {
     }
 }
 
+template <class V>
+kernels::Vec3<typename V::Real> first_lanes(const kernels::Vec3<typename V::F>& v) {
+    return {first_lane(v.x), first_lane(v.y), first_lane(v.z)};
+}
+
 }  // namespace orrery::extremes

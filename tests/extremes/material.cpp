@@ -1,0 +1,176 @@
+// Interfaces and rough lobes where their formulas are about to break: no interface, almost none, enormous indices, the
+// critical angle, grazing light, lobes as narrow as a rounding and as wide as the half space.
+#include <fmt/format.h>
+
+#include "cases.hpp"
+#include "dice.hpp"
+#include "kernels/fresnel.hpp"
+#include "kernels/glossy.hpp"
+#include "modes.hpp"
+#include "wide.hpp"
+
+namespace orrery::extremes {
+
+namespace {
+
+/// Fresnel's equations in the sine and tangent form's algebraic cousin: reflectance by admittances, s and p.
+struct Fresnel {
+    Wide reflectance, cosine_t;
+};
+Fresnel fresnel(Wide cosine, Wide eta) {
+    const Wide sine2_t = (1 - cosine * cosine) / (eta * eta);
+    if (sine2_t >= 1) return {1, 0};
+    const Wide cosine_t = root(1 - sine2_t);
+    // Admittance n cos (s) and n / cos (p); r = (Y0 - Y1) / (Y0 + Y1).
+    const Wide s0 = cosine, s1 = eta * cosine_t, p0 = cosine_t, p1 = eta * cosine;
+    const Wide s = (s0 - s1) / (s0 + s1), p = (p0 - p1) / (p0 + p1);
+    return {(s * s + p * p) / 2, cosine_t};
+}
+
+/// What one rounding of the inputs makes of the result.
+template <class Value>
+Wide change(Wide unit, Wide cosine, Wide eta, const Value& value) {
+    Wide most = 0;
+    const Wide centre = value(fresnel(cosine, eta));
+    for (const Wide dc : {-unit, Wide(0), unit})
+        for (const Wide de : {-unit, Wide(0), unit})
+            most = std::max(most,
+                            magnitude(value(fresnel(std::min(Wide(1), cosine * (1 + dc)), eta * (1 + de))) - centre));
+    return most;
+}
+
+template <class Real>
+struct Incidence {
+    Real cosine, eta;
+};
+
+template <class V>
+void cross_interface(Errors& errors, const Incidence<typename V::Real>& in) {
+    using Real = typename V::Real;
+    using F = typename V::F;
+    const auto unit = static_cast<Wide>(rounding_unit<Real>);
+    const auto cosine = static_cast<Wide>(in.cosine), eta = static_cast<Wide>(in.eta);
+    const auto at = kernels::interface_at<V>(F(in.cosine), F(in.eta));
+    const Fresnel exact = fresnel(cosine, eta);
+    const auto reflectance = [](const Fresnel& f) { return f.reflectance; };
+    const auto cosine_t = [](const Fresnel& f) { return f.cosine_t; };
+    const Wide r = magnitude(static_cast<Wide>(first_lane(at.reflectance)) - exact.reflectance) /
+                   (unit + change(unit, cosine, eta, reflectance));
+    const Wide t = magnitude(static_cast<Wide>(first_lane(at.cosine_t)) - exact.cosine_t) /
+                   (unit + change(unit, cosine, eta, cosine_t));
+    errors.add(static_cast<double>(std::max(r, t)),
+               [&] { return fmt::format("cosine {:a}, eta {:a}", in.cosine, in.eta); });
+}
+
+/// The refracted direction against Snell's law, of the directions as they were rounded. The kernel knows the angle of
+/// incidence by its cosine, one rounding of which is u / sin of the angle, and 1 / eta as much behind the interface.
+template <class V>
+void refract(Errors& errors, Dice& dice, typename V::Real eta) {
+    using Real = typename V::Real;
+    using F = typename V::F;
+    const auto unit_length = [](const Double3& v) {
+        const Wide3 exact = unit(widen(v));
+        return kernels::Vec3<Real>{static_cast<Real>(exact.x), static_cast<Real>(exact.y), static_cast<Real>(exact.z)};
+    };
+    const Double3 axis = dice.direction();
+    const double sine = dice.uniform() * std::fmin(1, 0.999 * static_cast<double>(eta));
+    const auto n = unit_length(axis);
+    const auto d = unit_length(dice.across(axis) * sine - axis * std::sqrt(1 - sine * sine));
+    const auto normal = broadcast<V>(n), direction = broadcast<V>(d);
+    const F cosine = F(0) - kernels::dot(normal, direction);
+    const auto at = kernels::interface_at<V>(cosine, F(eta));
+    const Wide3 out = widen(first_lanes<V>(kernels::refracted<V>(direction, normal, cosine, at)));
+    const Wide3 exact_n = unit(widen(n)), exact_d = unit(widen(d));
+    const Wide c = -dot(exact_n, exact_d), e = static_cast<Wide>(eta);
+    const Wide3 along = (1 / e) * (exact_d + c * exact_n);
+    const Wide3 wanted = along - root(std::max(Wide(0), 1 - dot(along, along))) * exact_n;
+    const auto rounding = static_cast<Wide>(rounding_unit<Real>);
+    const Wide steep = root(std::max(Wide(0), 1 - dot(along, along)));
+    const Wide behind = length(along), ahead = std::max(behind * e, root(rounding));
+    const Wide magnified = std::max(Wide(1), 1 / (e * ahead)) / std::max(steep, root(rounding));
+    errors.add(static_cast<double>(length(out - wanted) / (rounding * magnified)),
+               [&] { return fmt::format("eta {:a}, sine {:a}", eta, sine); });
+}
+
+/// A sample of a lobe and its density: a direction of unit length, on the right side, within the lobe, with a density
+/// that is >= 0 or, on the very edge, infinite.
+template <class V>
+void perturb(Errors& errors, Dice& dice, double beta) {
+    using Real = typename V::Real;
+    using F = typename V::F;
+    const double cosine = dice.coin() ? dice.uniform() : dice.scale(1e-9, 1);
+    const Double3 axis = dice.direction();
+    const auto n = rounded<Real>(axis);
+    const auto lobe = rounded<Real>(axis * cosine + dice.across(axis) * std::sqrt(1 - cosine * cosine));
+    const auto number = [&] {
+        return static_cast<Real>(dice.integer(0, 3) == 0 ? dice.integer(0, 1) * (1 - 0x1p-24)
+                                                         : dice.integer(0, (1 << 24) - 1) * 0x1p-24);
+    };
+    const auto b = static_cast<Real>(beta), u = number(), v = number();
+    const auto sample =
+        kernels::sample_glossy<V>(broadcast<V>(lobe), broadcast<V>(n), F(static_cast<Real>(cosine)), F(b), F(u), F(v));
+    const Wide3 direction = widen(first_lanes<V>(sample.direction));
+    const auto unit = static_cast<Wide>(rounding_unit<Real>);
+    // R + beta S may be as short as 1 - beta, and what its rounding is to its length as much larger.
+    const Wide3 exact_lobe = widen(lobe);
+    const Wide along = dot(exact_lobe, direction), size = length(direction), lobe_size = length(exact_lobe);
+    const Wide sine2 = 1 - along / size / lobe_size * (along / size / lobe_size);
+    const Wide sine = root(std::max(Wide(0), sine2));
+    const Wide below = -dot(widen(n), direction), outside = sine - static_cast<Wide>(b);
+    const Wide error = std::max(std::max(below, outside), magnitude(size - 1)) / unit * (1 - static_cast<Wide>(b));
+    const bool density = first_lane(sample.pdf) >= 0;
+    errors.add(density ? static_cast<double>(std::max(Wide(0), error)) : std::numeric_limits<double>::infinity(),
+               [&] { return fmt::format("beta {:a}, cosine {:a}, u {:a}, v {:a}", b, cosine, u, v); });
+}
+
+template <class V, class Trial>
+void add(std::vector<Case>& cases, const char* name, const char* unit, double limit, const Trial& trial) {
+    cases.push_back({"material", name, mode_name<V>(), unit, limit, 2000,
+                     [trial, seed = cases.size()](Errors& errors, std::uint64_t count) {
+                         Dice dice(seed);
+                         for (std::uint64_t i = 0; i < count; ++i) trial(errors, dice);
+                     }});
+}
+
+/// Any index, and an angle of incidence within some roundings of the critical one.
+template <class Real>
+Incidence<Real> critical(Dice& dice) {
+    const auto eta = static_cast<Real>(1 - dice.scale(1e-6, 0.999));
+    const Wide e = static_cast<Wide>(eta);
+    return {nudged(static_cast<Real>(root((1 - e) * (1 + e))), dice.integer(-4, 4)), eta};
+}
+
+}  // namespace
+
+void add_material(std::vector<Case>& cases) {
+    for_each_mode([&]<class V>() {
+        using Real = typename V::Real;
+        const char* const unit = "u and a rounding of the input";
+        const auto add_index = [&](const char* name, double eta, bool grazing) {
+            add<V>(cases, name, unit, eta == 1 ? 0.1 : 6, [=](Errors& errors, Dice& dice) {
+                cross_interface<V>(errors, {static_cast<Real>(grazing ? dice.scale(1e-9, 1e-2) : dice.uniform()),
+                                            static_cast<Real>(eta)});
+            });
+        };
+        add_index("Fresnel, eta 1", 1, false);
+        add_index("Fresnel, eta 1 - 1e-7", 1 - 1e-7, false);
+        add_index("Fresnel, eta 1 + 1e-7", 1 + 1e-7, false);
+        add<V>(cases, "Fresnel, eta 1e-3, below the critical angle", unit, 6, [](Errors& errors, Dice& dice) {
+            cross_interface<V>(errors, {static_cast<Real>(1 - 5e-7 * dice.uniform()), static_cast<Real>(1e-3)});
+        });
+        add_index("Fresnel, eta 1e3", 1e3, false);
+        add_index("Fresnel, eta 1.5, cosine 1e-9 to 0.01", 1.5, true);
+        add_index("Fresnel, eta 1, cosine 1e-9 to 0.01", 1, true);
+        add_index("Fresnel, eta 1 + 1e-7, cosine 1e-9 to 0.01", 1 + 1e-7, true);
+        add<V>(cases, "Fresnel, within 4 numbers of the critical angle", unit, 2,
+               [](Errors& errors, Dice& dice) { cross_interface<V>(errors, critical<Real>(dice)); });
+        for (const double eta : {1., 1 - 1e-7, 1 + 1e-7, 1e-3, 1e3})
+            add<V>(cases, fmt::format("refracted direction, eta {}", eta).c_str(), "a rounding of the cosine", 5,
+                   [=](Errors& errors, Dice& dice) { refract<V>(errors, dice, static_cast<Real>(eta)); });
+        for (const double beta : {1e-8, 1e-3, 0.999999})
+            add<V>(cases, fmt::format("glossy sample, roughness {}", beta).c_str(), "u / (1 - beta)", 6,
+                   [=](Errors& errors, Dice& dice) { perturb<V>(errors, dice, beta); });
+    });
+}
+
+}  // namespace orrery::extremes
