@@ -18,8 +18,10 @@ template <class V>
 ORRERY_INLINE Interface<V> interface_at(const typename V::F& cosine, const typename V::F& eta) {
     using F = typename V::F;
     const F inverse_eta = F(1) / eta;
-    // 1 - sin^2/eta^2 = ((eta^2 - 1) + cos^2)/eta^2: the sum keeps its digits for eta near 1.
-    const F discriminant = mul_add(cosine, cosine, (eta - F(1)) * (eta + F(1)));
+    // 1 - sin^2/eta^2 = ((eta^2 - 1) + cos^2)/eta^2: the sum keeps its digits for eta near 1; for the smallest eta,
+    // whose light arrives next to the normal, eta^2 - sin^2 does.
+    const F discriminant = choose(eta < F(0.25f), mul_sub(eta, eta, (F(1) - cosine) * (F(1) + cosine)),
+                                  mul_add(cosine, cosine, (eta - F(1)) * (eta + F(1))));
     const auto total = discriminant <= F(0);
     const F cosine_t = root(max(discriminant, F(0))) * inverse_eta;
     const F rs = (cosine - eta * cosine_t) / (cosine + eta * cosine_t);
