@@ -25,6 +25,9 @@ std::vector<Case> all_cases() {
     add_leaving(cases);
     add_light(cases);
     add_material(cases);
+    add_sums(cases);
+    add_camera(cases);
+    add_relations(cases);
     return in_order_of_the_table(cases);
 }
 

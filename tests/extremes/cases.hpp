@@ -27,5 +27,8 @@ void add_ray_and_sphere(std::vector<Case>& cases);
 void add_leaving(std::vector<Case>& cases);
 void add_light(std::vector<Case>& cases);
 void add_material(std::vector<Case>& cases);
+void add_sums(std::vector<Case>& cases);
+void add_camera(std::vector<Case>& cases);
+void add_relations(std::vector<Case>& cases);
 
 }  // namespace orrery::extremes

@@ -153,15 +153,15 @@ void add_material(std::vector<Case>& cases) {
             });
         };
         add_index("Fresnel, eta 1", 1, false);
-        add_index("Fresnel, eta 1 - 1e-7", 1 - 1e-7, false);
-        add_index("Fresnel, eta 1 + 1e-7", 1 + 1e-7, false);
+        add_index("Fresnel, eta 0.9999999", 1 - 1e-7, false);
+        add_index("Fresnel, eta 1.0000001", 1 + 1e-7, false);
         add<V>(cases, "Fresnel, eta 1e-3, below the critical angle", unit, 6, [](Errors& errors, Dice& dice) {
             cross_interface<V>(errors, {static_cast<Real>(1 - 5e-7 * dice.uniform()), static_cast<Real>(1e-3)});
         });
         add_index("Fresnel, eta 1e3", 1e3, false);
         add_index("Fresnel, eta 1.5, cosine 1e-9 to 0.01", 1.5, true);
         add_index("Fresnel, eta 1, cosine 1e-9 to 0.01", 1, true);
-        add_index("Fresnel, eta 1 + 1e-7, cosine 1e-9 to 0.01", 1 + 1e-7, true);
+        add_index("Fresnel, eta 1.0000001, cosine 1e-9 to 0.01", 1 + 1e-7, true);
         add<V>(cases, "Fresnel, within 4 numbers of the critical angle", unit, 2,
                [](Errors& errors, Dice& dice) { cross_interface<V>(errors, critical<Real>(dice)); });
         for (const double eta : {1., 1 - 1e-7, 1 + 1e-7, 1e-3, 1e3})
