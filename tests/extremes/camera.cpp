@@ -22,6 +22,7 @@ void look(Errors& errors, Dice& dice, double fov, double aspect, const glm::dvec
     using F = typename V::F;
     Scene scene = picture(position, position + ahead, fov, 16);
     scene.camera.aspect = aspect;
+    scene.settings.precision = sizeof(Real) == 4 ? Precision::binary32 : Precision::binary64;
     const Plan plan(scene);
     const Wide3 z = unit(widen(scene.camera.target) - widen(scene.camera.position));
     const bool along_up = z.x == 0 && z.z == 0;
@@ -31,7 +32,7 @@ void look(Errors& errors, Dice& dice, double fov, double aspect, const glm::dvec
         const auto px = static_cast<Real>(dice.between(-1, 1) * plan.half_width());
         const auto py = static_cast<Real>(dice.between(-1, 1) * plan.half_height());
         kernels::Vec3<F> origin, direction;
-        kernels::camera_ray<V, false>(plan.camera(), F(px), F(py), {}, origin, direction);
+        kernels::camera_ray<V, false>(plan.tables<Real>().camera, F(px), F(py), {}, origin, direction);
         const Wide3 exact = unit(static_cast<Wide>(px) * x + static_cast<Wide>(py) * y + z);
         errors.add(static_cast<double>(length(extremes::widen(first_lanes<V>(direction)) - exact) /
                                        static_cast<Wide>(rounding_unit<Real>)));
@@ -40,7 +41,7 @@ void look(Errors& errors, Dice& dice, double fov, double aspect, const glm::dvec
 
 /// A ball from afar through `width` by `height` pixels, as DEPTH sees it: by how much a distance lies outside of what
 /// the corners of its pixel allow. Pixels are so small that the rim is all that is no function of the corners.
-void measure_a_ball(Errors& errors, Isa isa, std::uint32_t width, std::uint32_t height) {
+void measure_a_ball(Errors& errors, const Pipeline& how, std::uint32_t width, std::uint32_t height) {
     Scene scene = picture({0, 0, -5}, {0, 0, 0}, 20, 1);
     scene.settings.width = width;
     scene.settings.height = height;
@@ -50,7 +51,7 @@ void measure_a_ball(Errors& errors, Isa isa, std::uint32_t width, std::uint32_t 
     if (width > height) scene.camera.fov = 20.0 / width;
     add_sphere(scene, {0, 0, 0}, 1, diffuse(0.5));
     const Plan plan(scene);
-    const Image image = render(scene, isa).image;
+    const Image image = render(scene, how).image;
     const auto distance = [&](double column, double row) {
         const double x = (2 * column / width - 1) * plan.half_width(), y = (1 - 2 * row / height) * plan.half_height();
         const double a = x * x + y * y + 1, b = 5, c = 24;
@@ -98,15 +99,12 @@ void add_camera(std::vector<Case>& cases) {
         add("up but for 1e-7", 45, 1, here, {1e-7, 1, 0}, v);
         add("1e8 from the origin", 45, 1, {1e8, -1e8, 1e8}, ahead, v);
     };
-    add_all(Float{});
-#if defined(__SSE2__)
-    add_all(FloatSse2{});
-#endif
-    for (const Isa isa : differing_isas()) {
+    for_each_mode([&]<class V>() { add_all(V{}); });
+    for (const Pipeline& how : pipelines()) {
         const auto add_size = [&](std::uint32_t width, std::uint32_t height) {
-            cases.push_back({"camera", fmt::format("distances through {} x {} pixels", width, height),
-                             isa == Isa::sse2 ? "float, SSE2" : "float", "u (1 + d)^2", 1, 1,
-                             [=](Errors& errors, std::uint64_t) { measure_a_ball(errors, isa, width, height); }});
+            cases.push_back({"camera", fmt::format("distances through {} x {} pixels", width, height), how.mode,
+                             "u (1 + d)^2", 1, 1,
+                             [=](Errors& errors, std::uint64_t) { measure_a_ball(errors, how, width, height); }});
         };
         add_size(1, 1);
         add_size(65536, 1);

@@ -32,18 +32,26 @@ inline void add_point_light(Scene& scene, const glm::dvec3& position, const glm:
     scene.point_lights.push_back({"point", position, intensity});
 }
 
-/// One of those that agree to the byte, and SSE2.
-inline std::vector<Isa> differing_isas() {
-    std::vector<Isa> isas{best_isa()};
-    if (best_isa() != Isa::sse2 && isa_supported(Isa::sse2)) isas.push_back(Isa::sse2);
-    return isas;
+/// A way to compute a picture that has bits of its own.
+struct Pipeline {
+    const char* mode;
+    Isa isa;
+    Precision precision;
+};
+inline std::vector<Pipeline> pipelines() {
+    std::vector<Pipeline> all{{"float", best_isa(), Precision::binary32}};
+    if (best_isa() != Isa::sse2 && isa_supported(Isa::sse2))
+        all.push_back({"float, SSE2", Isa::sse2, Precision::binary32});
+    all.push_back({"double", best_isa(), Precision::binary64});
+    return all;
 }
 
-inline RenderResult render(const Scene& scene, Isa isa) {
+inline RenderResult render(Scene scene, const Pipeline& how) {
+    scene.settings.precision = how.precision;
     RenderOptions options;
     options.threads = 1;
-    options.isa = isa;
-    return orrery::render(Plan(scene), options);
+    options.isa = how.isa;
+    return orrery::render(Plan(std::move(scene)), options);
 }
 
 }  // namespace orrery::extremes

@@ -181,10 +181,10 @@ Scene wild(Dice& dice, double away) {
 }
 
 /// Pixels that are no numbers, and samples dropped where none should be.
-void render_wild_scenes(Errors& errors, Isa isa, std::uint64_t scenes, double away, bool may_drop) {
+void render_wild_scenes(Errors& errors, const Pipeline& how, std::uint64_t scenes, double away, bool may_drop) {
     Dice dice(5);
     for (std::uint64_t i = 0; i < scenes; ++i) {
-        const auto result = render(wild(dice, away), isa);
+        const auto result = render(wild(dice, away), how);
         double lost = may_drop ? 0 : static_cast<double>(result.stats.dropped_samples);
         for (const Rgb& p : result.image.pixels)
             lost += std::isfinite(p.r + p.g + p.b) && std::min({p.r, p.g, p.b}) >= 0 ? 0 : 1;
@@ -214,11 +214,10 @@ void add_relations(std::vector<Case>& cases) {
                    [=](Errors& errors, Dice& dice) { translate<V>(errors, dice, far); });
         add<V>(cases, "culled as a bunch of 256 rays", "lost hits", 0, 100, share_a_cone<V>);
     });
-    for (const Isa isa : differing_isas()) {
+    for (const Pipeline& how : pipelines()) {
         const auto add_pictures = [&](const char* name, const char* unit, double away, bool may_drop) {
-            cases.push_back({"relations", name, isa == Isa::sse2 ? "float, SSE2" : "float", unit, 0, 60,
-                             [=](Errors& errors, std::uint64_t scenes) {
-                                 render_wild_scenes(errors, isa, scenes, away, may_drop);
+            cases.push_back({"relations", name, how.mode, unit, 0, 60, [=](Errors& errors, std::uint64_t scenes) {
+                                 render_wild_scenes(errors, how, scenes, away, may_drop);
                              }});
         };
         add_pictures("pictures of anything at any size", "samples dropped, pixels not finite", 1e3, false);

@@ -47,27 +47,27 @@ void expect(Errors& errors, const Image& image, double exact, double unit) {
 }
 
 /// In a closed box that reflects everything each of the 10 001 vertices of a path adds what the box emits.
-void reflect_ten_thousand_times(Errors& errors, Isa isa, const Material& material, double radiance) {
+void reflect_ten_thousand_times(Errors& errors, const Pipeline& how, const Material& material, double radiance) {
     Scene scene = picture({0.3, 0.2, -0.4}, {0.1, 0.9, 0.3}, 90, 4);
     add_lamp(scene, {0.1, -0.1, 0}, 1.5, glm::dvec3{radiance}, material);
     scene.settings.depth = 10000;
     scene.settings.roulette = false;
     scene.settings.transport = Transport::naive;
     scene.settings.samples = 4;
-    expect(errors, render(scene, isa).image, 10001 * radiance, u);
+    expect(errors, render(scene, how).image, 10001 * radiance, u);
 }
 
 /// A floor lit by `count` point lights at one place, which share what one would have.
-Image lit_by(std::uint32_t count, Isa isa) {
+Image lit_by(std::uint32_t count, const Pipeline& how) {
     Scene scene = picture({0, 2, -6}, {0, 0.7, 0}, 36, 4);
     scene.settings.depth = 1;
     scene.settings.samples = 1;
     add_sphere(scene, {0, -40, 0}, 40, diffuse(0.8));
     for (std::uint32_t i = 0; i < count; ++i) add_point_light(scene, {1, 3, -2}, glm::dvec3{50.0 / count});
-    return render(scene, isa).image;
+    return render(scene, how).image;
 }
-void share_among_lights(Errors& errors, Isa isa) {
-    const Image one = lit_by(1, isa), many = lit_by(10000, isa);
+void share_among_lights(Errors& errors, const Pipeline& how) {
+    const Image one = lit_by(1, how), many = lit_by(10000, how);
     for (std::size_t i = 0; i < one.pixels.size(); ++i) {
         if (one.pixels[i].r == 0 && many.pixels[i].r == 0) continue;
         errors.add(std::abs(double{many.pixels[i].r} / double{one.pixels[i].r} - 1) / u);
@@ -75,7 +75,7 @@ void share_among_lights(Errors& errors, Isa isa) {
 }
 
 /// Lights whose powers differ by sixty orders of magnitude, each in a box of its own: the dark one is not lost.
-void light_with_every_power(Errors& errors, Isa isa) {
+void light_with_every_power(Errors& errors, const Pipeline& how) {
     for (const double power : {1e-30, 1e30}) {
         for (const bool other : {false, true}) {
             Scene scene = picture({0, 0, -0.5}, {0, 0, 0}, 60, 4);
@@ -84,7 +84,7 @@ void light_with_every_power(Errors& errors, Isa isa) {
             add_point_light(scene, {0, 0, 0}, glm::dvec3{power});
             if (other) add_point_light(scene, {0, 0, 7}, glm::dvec3{1e30});  // outside
             // From the centre every point is lit alike: rho / pi I / r^2.
-            expect(errors, render(scene, isa).image, 0.5 / std::numbers::pi * power, u);
+            expect(errors, render(scene, how).image, 0.5 / std::numbers::pi * power, u);
         }
     }
 }
@@ -100,18 +100,18 @@ void add_sums(std::vector<Case>& cases) {
     add("one sample of 1e30 among 2^20", "all", "u", 1, 1 << 20, add_one_giant);
     // A sample's radiance is summed in float: ten thousand terms that are no round numbers may add up half a rounding
     // each, 3e-4 in all.
-    for (const Isa isa : differing_isas()) {
-        const char* const mode = isa == Isa::sse2 ? "float, SSE2" : "float";
-        add("10 000 diffuse reflections, rho 1", mode, "u", 0, 1,
-            [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, isa, diffuse(1), 1); });
-        add("10 000 diffuse reflections, rho 1, radiance 0.1", mode, "u", 5000, 1,
-            [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, isa, diffuse(1), 0.1); });
-        add("10 000 mirror reflections, rho 1", mode, "u", 0, 1,
-            [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, isa, mirror(1), 1); });
-        add("10 000 lights for one", mode, "u", 5000, 1,
-            [=](Errors& errors, std::uint64_t) { share_among_lights(errors, isa); });
-        add("powers of 1e-30 and 1e30", mode, "u", 8, 1,
-            [=](Errors& errors, std::uint64_t) { light_with_every_power(errors, isa); });
+    for (const Pipeline& how : pipelines()) {
+        const double terms = how.precision == Precision::binary32 ? 5000 : 1;
+        add("10 000 diffuse reflections, rho 1", how.mode, "u", 0, 1,
+            [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, how, diffuse(1), 1); });
+        add("10 000 diffuse reflections, rho 1, radiance 0.1", how.mode, "u", terms, 1,
+            [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, how, diffuse(1), 0.1); });
+        add("10 000 mirror reflections, rho 1", how.mode, "u", 0, 1,
+            [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, how, mirror(1), 1); });
+        add("10 000 lights for one", how.mode, "u", terms, 1,
+            [=](Errors& errors, std::uint64_t) { share_among_lights(errors, how); });
+        add("powers of 1e-30 and 1e30", how.mode, "u", 8, 1,
+            [=](Errors& errors, std::uint64_t) { light_with_every_power(errors, how); });
     }
 }
 
