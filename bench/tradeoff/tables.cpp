@@ -20,13 +20,19 @@ std::string processor() {
     return "unknown processor";
 }
 
+constexpr const char* few_rounds =
+    "So few rounds leave the error bars themselves uncertain, by half where there are three: a longer `--time` has "
+    "more.\n";
+
 std::string setting(const Outcome& outcome) {
     return fmt::format(
-        "{}, {} threads, {}. {} rounds in {:.0f} s: {} combinations of scene and settings, each rendered at up to four "
-        "numbers of samples, the largest of about {:.0f} ms of processor time; images of {} pixels or about.\n",
-        processor(), std::thread::hardware_concurrency(), isa_name(best_isa()), outcome.rounds, outcome.seconds,
-        outcome.cells.size(), 1e3 * outcome.last_level_seconds,
-        outcome.subjects.front().usual.width * outcome.subjects.front().usual.height);
+               "{}, {} threads, {}. {} rounds in {:.0f} s: {} combinations of scene and settings, each rendered at up "
+               "to four "
+               "numbers of samples, the largest of about {:.0f} ms of processor time; images of {} pixels or about.\n",
+               processor(), std::thread::hardware_concurrency(), isa_name(best_isa()), outcome.rounds, outcome.seconds,
+               outcome.cells.size(), 1e3 * outcome.last_level_seconds,
+               outcome.subjects.front().usual.width * outcome.subjects.front().usual.height) +
+           (outcome.rounds < 8 ? few_rounds : "");
 }
 
 std::string best(const Outcome& outcome) {
@@ -57,6 +63,9 @@ std::string options(const Outcome& outcome) {
     return table;
 }
 
+constexpr const char* without_floor =
+    "; no floor is found, which speaks for bright paths so rare that few renders with few samples meet one";
+
 std::string slopes(const Outcome& outcome) {
     std::string table = "| scene | `--estimator uniform` | defaults |\n|---|--:|--:|\n";
     std::string faults;
@@ -72,8 +81,8 @@ std::string slopes(const Outcome& outcome) {
                                       outcome.subjects[i].name, cell->name, 100 * std::sqrt(cell->floor.value),
                                       cell->floor.value / cell->floor.error);
             if (cell->flattening())
-                faults += fmt::format("* {}, {}: the error **flattens**, slope {}\n", outcome.subjects[i].name,
-                                      cell->name, plus_minus(cell->slope));
+                faults += fmt::format("* {}, {}: the error **flattens**, slope {}{}\n", outcome.subjects[i].name,
+                                      cell->name, plus_minus(cell->slope), cell->biased() ? "" : without_floor);
         }
         table += fmt::format("| {} | {} | {} |\n", outcome.subjects[i].name, uniform, slope(outcome.defaults(i)));
     }
