@@ -39,7 +39,7 @@ Scene random_scene(std::uint32_t count) {
 }
 
 double table_bytes(const kernels::SphereTable<float>& spheres) {
-    constexpr double sphere = 6 * 4;  // columns of four bytes
+    constexpr double sphere = 8 * 4;  // six numbers and two words
     return sphere * spheres.count + static_cast<double>(sizeof(kernels::TreeNode<float>)) * spheres.tree.count;
 }
 

@@ -99,32 +99,56 @@ ORRERY_INLINE Bunch<typename V::Real> bound(const typename V::Real* const (&colu
             Real(1) / least(nearest)};
 }
 
-/// The spheres of a table of at most SomeSpheres::capacity that some ray of the bunch may meet.
+/// The cone of a bunch, ready for a vector of spheres at a time.
 ///
 /// Point t of a ray lies within spread + t deviation of origin + t axis. So a ray can only meet a sphere where, with
 /// f = C - origin and R = r + spread, |f - t axis| <= R + t deviation for some t in [0, t_max]. Squared that is a
 /// parabola, whose lowest point is easily found; there the distance is computed as `chord` does it, without
 /// cancellation. R is enlarged by 2^-18 of itself and of |f|, which is sixteen times what rounding makes of either.
 template <class V>
-ORRERY_INLINE SomeSpheres candidates(const SphereTable<typename V::Real>& spheres,
-                                     const Bunch<typename V::Real>& bunch) {
+struct Cone {
     using Real = typename V::Real;
     using F = typename V::F;
-    const Real narrow = dot(bunch.axis, bunch.axis) - bunch.deviation * bunch.deviation;
-    if (!(narrow > Real(0.01))) return every(spheres.count);
-    const Vec3<F> origin{F(bunch.origin.x), F(bunch.origin.y), F(bunch.origin.z)};
-    const Vec3<F> axis{F(bunch.axis.x), F(bunch.axis.y), F(bunch.axis.z)};
+
+    ORRERY_INLINE explicit Cone(const Bunch<Real>& bunch)
+        : origin{F(bunch.origin.x), F(bunch.origin.y), F(bunch.origin.z)},
+          axis{F(bunch.axis.x), F(bunch.axis.y), F(bunch.axis.z)},
+          spread(bunch.spread),
+          deviation(bunch.deviation),
+          t_max(bunch.t_max) {
+        const Real square = dot(bunch.axis, bunch.axis) - bunch.deviation * bunch.deviation;
+        narrow = square > Real(0.01);
+        inverse_square = F(Real(1) / square);
+    }
+
+    /// Errs on the side of yes.
+    ORRERY_INLINE typename V::M may_meet(const Vec3<F>& centre, const F& sphere_radius) const {
+        const Vec3<F> f = centre - origin;
+        const F f2 = dot(f, f);
+        const F enough = sphere_radius + spread;
+        const F radius = mul_add(root(f2) + enough, F(Real(0x1p-18)), enough);
+        const F slope = mul_add(radius, deviation, dot(f, axis));
+        const F t = min(max(slope * inverse_square, F(0)), t_max);
+        const Vec3<F> l = back_along(f, t, axis);
+        const F reach = mul_add(t, deviation, radius);
+        return !(reach * reach < dot(l, l));
+    }
+
+    Vec3<F> origin, axis;
+    F spread, deviation, t_max, inverse_square;
+    bool narrow;  ///< or else it bounds nothing
+};
+
+/// The spheres of a table of at most SomeSpheres::capacity that some ray of the bunch may meet.
+template <class V>
+ORRERY_INLINE SomeSpheres candidates(const SphereTable<typename V::Real>& spheres,
+                                     const Bunch<typename V::Real>& bunch) {
+    const Cone<V> cone(bunch);
+    if (!cone.narrow) return every(spheres.count);
     std::uint64_t may = 0;
     for (std::uint32_t k = 0; k < spheres.count; k += V::count) {
-        const Vec3<F> f = load3<V>(spheres.cx + k, spheres.cy + k, spheres.cz + k) - origin;
-        const F f2 = dot(f, f);
-        const F enough = load<F>(spheres.radius + k) + F(bunch.spread);
-        const F radius = mul_add(root(f2) + enough, F(Real(0x1p-18)), enough);
-        const F slope = mul_add(radius, F(bunch.deviation), dot(f, axis));
-        const F t = min(max(slope * F(Real(1) / narrow), F(0)), F(bunch.t_max));
-        const Vec3<F> l = back_along(f, t, axis);
-        const F reach = mul_add(t, F(bunch.deviation), radius);
-        may |= std::uint64_t{bits(!(reach * reach < dot(l, l)))} << k;
+        const auto centre = load3<V>(spheres.cx + k, spheres.cy + k, spheres.cz + k);
+        may |= std::uint64_t{bits(cone.may_meet(centre, load<typename V::F>(spheres.radius + k)))} << k;
     }
     return {may & every(spheres.count).bits};
 }

@@ -1,9 +1,9 @@
 // The stages `intersect` and `shadow`, and the columns of segments, for tables with a tree.
 #pragma once
 
-#include "kernels/emission.hpp"
 #include "kernels/segment.hpp"
-#include "kernels/tree_cast.hpp"
+#include "kernels/shadow.hpp"
+#include "kernels/tree_coherent.hpp"
 
 namespace orrery::kernels {
 
@@ -16,6 +16,14 @@ void intersect_tree(const SphereTable<typename V::Real>& spheres, const RayQueue
     TreeHits<Real> found;
     for (std::uint32_t first = 0; first < count; first += tree_bunch) {
         const std::uint32_t bunch = count - first < tree_bunch ? count - first : tree_bunch;
+        SphereList<Real> list;
+        if (collect<V>(
+                spheres,
+                {rays.ox + first, rays.oy + first, rays.oz + first, rays.dx + first, rays.dy + first, rays.dz + first},
+                nullptr, bunch, list)) {
+            intersect_list<V>(spheres, list, rays, first, first + bunch, hits);
+            continue;
+        }
         for (std::uint32_t i = 0; i < tree_bunch; ++i) found.t[i] = std::numeric_limits<Real>::infinity();
         closest_in_tree<V>(spheres,
                            {rays.ox + first, rays.oy + first, rays.oz + first, rays.dx + first, rays.dy + first,
@@ -31,11 +39,20 @@ void intersect_tree(const SphereTable<typename V::Real>& spheres, const RayQueue
 template <class V>
 void shadow_tree(const SphereTable<typename V::Real>& spheres, const ShadowQueue<typename V::Real>& queue,
                  std::uint32_t count, std::uint32_t skip, const SlotTable<typename V::Real>& slots) {
+    using Real = typename V::Real;
     using Word = typename V::Word;
     using U = typename V::U;
     alignas(64) Word occluded[tree_bunch];
     for (std::uint32_t first = 0; first < count; first += tree_bunch) {
         const std::uint32_t bunch = count - first < tree_bunch ? count - first : tree_bunch;
+        SphereList<Real> list;
+        if (collect<V>(spheres,
+                       {queue.ox + first, queue.oy + first, queue.oz + first, queue.dx + first, queue.dy + first,
+                        queue.dz + first},
+                       queue.inverse_t_max + first, bunch, list)) {
+            shadow_among<V>(spheres, list, queue, first, first + bunch, skip, slots);
+            continue;
+        }
         occluded_in_tree<V>(spheres,
                             {queue.ox + first, queue.oy + first, queue.oz + first, queue.dx + first, queue.dy + first,
                              queue.dz + first, queue.left + first, nullptr},

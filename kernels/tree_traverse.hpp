@@ -134,7 +134,7 @@ ORRERY_INLINE void traverse(const SphereTable<typename V::Real>& spheres, TreeRa
     using Word = typename V::Word;
     const auto& tree = spheres.tree;
     alignas(64) Word places[tree_bunch];
-    for (std::uint32_t i = 0; i < tree_bunch; i += V::count) save(places + i, consecutive<V>(i));
+    for (std::uint32_t i = 0; i < count; i += V::count) save(places + i, consecutive<V>(i));
     for (std::uint32_t i = count; i < round_up(count); ++i) rays.octant[i] = 8;
 
     for (std::uint32_t octant = 0; octant < 8; ++octant) {

@@ -115,6 +115,9 @@ void Tables<Real>::put_spheres(const Scene& scene, const std::vector<std::uint32
         area_lights.push_back({0, f(p.centre.x), f(p.centre.y), f(p.centre.z), f(p.radius), f(p.emission->r),
                                f(p.emission->g), f(p.emission->b)});
     }
+    // Exactly what they hold: grown by doubling, the columns of 2^20 spheres would end at twice their size.
+    for (auto& column : sphere_columns_) column.reserve(order.size() + kernels::widest);
+    for (auto& column : sphere_words_) column.reserve(order.size() + kernels::widest);
     std::uint32_t index = 0;
     for (const std::uint32_t primitive : order) {
         const Primitive& p = scene.primitives[primitive];

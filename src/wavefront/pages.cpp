@@ -88,12 +88,12 @@ Runs sort_hits(Wave<Real>& w, std::uint32_t rays, std::uint32_t bounce) {
         return runs;
     }
     WaveStorage<Real>& s = w.storage;
-    const std::uint32_t bytes = vector3<Real> + word<Real> + 2 * (record_bytes(s.rays) + record_bytes(s.hits));
-    const StageTimer timer(w.counters, Stage::shade, bounce, {rays, bytes, w.stages.lanes, true});
+    StageTimer timer(w.counters, Stage::shade, bounce, {rays, vector3<Real> + word<Real>, w.stages.lanes, true});
     if (w.stages.sort_by_scattering(w.tables.spheres, needs.scattering, s.rays, s.hits, rays, s.sorted_rays,
                                     s.sorted_hits, runs)) {
         std::swap(s.rays, s.sorted_rays);
         std::swap(s.hits, s.sorted_hits);
+        timer.add_bytes(rays, 2 * (record_bytes(s.rays) + record_bytes(s.hits)));
     }
     return runs;
 }

@@ -45,6 +45,10 @@ public:
         to_.filled += load.rays;
     }
     ~StageTimer() { to_.ticks += TickClock::now() - start_; }
+    /// What only the stage itself could tell.
+    void add_bytes(std::uint32_t rays, std::uint32_t bytes_per_ray) {
+        to_.bytes += std::uint64_t{rays} * bytes_per_ray;
+    }
     StageTimer(const StageTimer&) = delete;
     StageTimer& operator=(const StageTimer&) = delete;
 

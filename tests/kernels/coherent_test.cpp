@@ -2,9 +2,10 @@
 #include "geometry.hpp"
 #include "kernel_test.hpp"
 #include "kernels/candidates.hpp"
-#include "kernels/intersect.hpp"
+#include "kernels/tree_coherent.hpp"
 #include "numbers.hpp"
 #include "owned.hpp"
+#include "planted.hpp"
 
 namespace orrery::kernel_tests {
 namespace {
@@ -12,11 +13,11 @@ namespace {
 using kernels::no_sphere;
 
 /// Sizes over eight orders of magnitude about a place; the camera is within one here and there.
-std::vector<Ball> balls_around(const glm::dvec3& place, std::uint32_t count, std::uint64_t seed) {
+std::vector<Ball> balls_around(const glm::dvec3& place, std::uint32_t count, std::uint64_t seed, double largest = 1e4) {
     Numbers random(seed);
     std::vector<Ball> balls(count);
     for (Ball& ball : balls) {
-        ball.radius = random.scale(1e-4, 1e4);
+        ball.radius = random.scale(1e-4, largest);
         ball.centre = place + random.direction() * (random.between(0.5, 3) * ball.radius + random.scale(1e-2, 1e3));
     }
     return balls;
@@ -93,6 +94,71 @@ TEST_P(CoherentTest, MeetsWhatTheLoopMeets) {
     EXPECT_LT(met, all - all / 10);
 }
 
+// Worlds large enough for a tree: in a bunch of alike rays as each alone, where nothing can be bounded together.
+TEST_P(CoherentTest, MeetsInATreeWhatEachRayMeetsAlone) {
+    std::uint32_t met = 0, all = 0, ids_apart = 0;
+    for (const glm::dvec3& place : places)
+        for (const std::uint32_t size : {64u, 200u, 3000u}) {
+            std::vector<Ball> balls = balls_around(place, size, size, size == 200 ? 1e4 : 3);
+            // Two and two the same: of equally far ones the first in the table.
+            for (std::uint32_t k = 0; k < size / 8; ++k) balls[2 * k + 1] = balls[2 * k];
+            const Planted world(balls);
+            for (const Beam& beam : beams) {
+                constexpr std::uint32_t count = 300;
+                Numbers random(size);
+                Rays rays(kernels::round_up(count));
+                glm::dvec3 eye{};
+                const Ball* target = nullptr;
+                Ray ray{};
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    const bool first = i % kernels::bunch_size == 0;
+                    if (first) eye = place + random.point(20), target = &balls[random.below(size)];
+                    if (first || beam.angle > 0) ray = ray_of(beam, *target, eye, random);
+                    const std::uint32_t left = random.below(size) | (i % 2 == 0 ? kernels::inside_bit : 0);
+                    put_ray(*rays, i, ray.o, ray.d, i % 3 == 0 ? left : no_sphere);
+                }
+                Hits hits(kernels::round_up(count));
+                stages.intersect_tree(world->spheres, *rays, count, *hits);
+                for (std::uint32_t i = 0; i < count; i += 5) {
+                    Hits alone(kernels::widest);
+                    stages.intersect_tree(world->spheres, from(rays, i), 1, *alone);
+                    ASSERT_EQ(hits->id[i], alone->id[0]) << "ray " << i << ", angle " << beam.angle;
+                    ASSERT_EQ(hits->t[i], alone->t[0]) << "ray " << i << ", angle " << beam.angle;
+                    met += hits->id[i] != no_sphere;
+                    ids_apart += hits->id[i] != hits->id[0];
+                    ++all;
+                }
+                // The same rays as shadow rays, towards what is 30 away.
+                Shadows queue(kernels::round_up(count));
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    put3(queue->ox, queue->oy, queue->oz, i, origin_of(*rays, i));
+                    put3(queue->dx, queue->dy, queue->dz, i, direction_of(*rays, i));
+                    put3(queue->r, queue->g, queue->b, i, glm::dvec3(1));
+                    queue->inverse_t_max[i] = 1.0f / 30;
+                    queue->left[i] = rays->left[i], queue->slot[i] = i;
+                }
+                Slots slots(kernels::round_up(count));
+                for (std::uint32_t i = 0; i < 4 * count; ++i) slots->radiance[i] = 0;
+                stages.shadow_tree(world->spheres, *queue, count, 3, *slots);
+                for (std::uint32_t i = 0; i < count; i += 5) {
+                    Shadows part(kernels::widest);
+                    put3(part->ox, part->oy, part->oz, 0, origin_of(*rays, i));
+                    put3(part->dx, part->dy, part->dz, 0, direction_of(*rays, i));
+                    put3(part->r, part->g, part->b, 0, glm::dvec3(1));
+                    part->inverse_t_max[0] = queue->inverse_t_max[i];
+                    part->left[0] = queue->left[i], part->slot[0] = 0;
+                    Slots one(kernels::widest);
+                    for (int c = 0; c < 4; ++c) one->radiance[c] = 0;
+                    stages.shadow_tree(world->spheres, *part, 1, 3, *one);
+                    ASSERT_EQ(slots->radiance[4 * i], one->radiance[0]) << "shadow ray " << i;
+                }
+            }
+        }
+    EXPECT_GT(met, all / 10);
+    EXPECT_LT(met, all);
+    EXPECT_GT(ids_apart, all / 10);
+}
+
 TEST_P(CoherentTest, IsShadowedByWhatTheLoopFinds) {
     const std::vector<Ball> balls = balls_around(places[0], 50, 3);
     const World world(balls);
@@ -133,6 +199,24 @@ TEST_P(CoherentTest, IsShadowedByWhatTheLoopFinds) {
             }
     EXPECT_GT(lit, all / 10);
     EXPECT_LT(lit, all - all / 10);
+}
+
+TEST(CandidatesTest, OfATreeAreListedInOrderOrAreTooMany) {
+    std::vector<Ball> balls;
+    for (int k = 0; k < 900; ++k) balls.push_back({{k % 30, k / 30, 10}, 0.4});
+    const Planted world(balls);
+    kernels::Bunch<float> beam{{3, 3, 0}, {0, 0, 1}, 0.1f, 0.1f, std::numeric_limits<float>::infinity()};
+    kernels::SphereList<float> list;
+    ASSERT_TRUE(kernels::collect<kernels::ScalarLanes<float>>(world->spheres, beam, list));
+    ASSERT_EQ(list.count, 9u) << "the middle one and its neighbours, each once";
+    for (std::uint32_t i = 0; i < 9; ++i) {
+        const glm::dvec3 apart = world->centre(list.id[i]) - glm::dvec3(3, 3, 10);
+        EXPECT_LT(glm::length(apart), 1.5);
+        EXPECT_TRUE(i == 0 || list.id[i - 1] < list.id[i]);
+    }
+    beam.deviation = 0.5f;
+    list.count = 0;
+    EXPECT_FALSE(kernels::collect<kernels::ScalarLanes<float>>(world->spheres, beam, list)) << "some eighty";
 }
 
 // What the whole is for: a lattice of 64 spheres, and rays about one of them.

@@ -105,4 +105,10 @@ using Lobes = Owned<kernels::LobeQueue<float>>;
 using Shadows = Owned<kernels::ShadowQueue<float>>;
 using Slots = Owned<kernels::SlotTable<float>>;
 
+inline kernels::RayQueue<float> from(const Rays& rays, std::uint32_t first) {
+    kernels::RayQueue<float> part = *rays;
+    kernels::RayQueue<float>::each_field([&](const char*, auto field) { part.*field += first; });
+    return part;
+}
+
 }  // namespace orrery::kernel_tests

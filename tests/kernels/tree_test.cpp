@@ -17,12 +17,6 @@ Rays rays_in(const World& world, std::uint32_t count, std::uint64_t seed) {
     return rays;
 }
 
-kernels::RayQueue<float> from(const Rays& rays, std::uint32_t first) {
-    kernels::RayQueue<float> part = *rays;
-    kernels::RayQueue<float>::each_field([&](const char*, auto field) { part.*field += first; });
-    return part;
-}
-
 /// The least (t, id) among all spheres, by the kernels' own maths: what culling must not change in the last bit.
 struct Nearest {
     float t = std::numeric_limits<float>::infinity();

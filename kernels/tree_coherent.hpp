@@ -1,0 +1,136 @@
+// Coherent rays and a tree: one cone goes down for all of them, and what spheres it finds they take in a loop.
+//
+// A bunch of camera rays meets a dozen spheres where every ray of it alone would visit the same nodes. A cone is tested
+// against sixteen boxes at a time, each as the ball around it; where it finds too many spheres or passes too many
+// nodes, the rays go down one by one as they would have (tree_cast.hpp), to the same hits.
+#pragma once
+
+#include "kernels/candidates.hpp"
+#include "kernels/tree_cast.hpp"
+
+namespace orrery::kernels {
+
+/// Spheres by id, ascending; an Among for closest and any hit.
+template <class Real>
+struct SphereList {
+    using Word = WordOf<Real>;
+    /// Of more a loop takes longer than the tree, measured.
+    static constexpr std::uint32_t capacity = 32;
+    std::uint32_t count = 0;
+    alignas(64) Word id[capacity + widest];
+
+    template <class Test>
+    ORRERY_INLINE void each(const Test& test) const {
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (test(static_cast<std::uint32_t>(id[i]))) return;
+    }
+};
+
+/// Sorts, and leaves out what stands there twice: a leaf is tested with the spheres behind it.
+template <class Real>
+ORRERY_INLINE void put_in_order(SphereList<Real>& list) {
+    std::uint32_t size = 0;
+    for (std::uint32_t i = 0; i < list.count; ++i) {
+        const auto id = list.id[i];
+        std::uint32_t at = size;
+        while (at > 0 && list.id[at - 1] > id) --at;
+        if (at > 0 && list.id[at - 1] == id) continue;
+        for (std::uint32_t j = size; j > at; --j) list.id[j] = list.id[j - 1];
+        list.id[at] = id;
+        ++size;
+    }
+    list.count = size;
+}
+
+/// Collects what spheres the bunch may meet. False where they are too many or too far apart in the tree.
+template <class V>
+ORRERY_INLINE bool collect(const SphereTable<typename V::Real>& spheres, const Bunch<typename V::Real>& bunch,
+                           SphereList<typename V::Real>& list) {
+    using Real = typename V::Real;
+    using F = typename V::F;
+    constexpr std::uint32_t most_nodes = 24;
+    const Cone<V> cone(bunch);
+    if (!cone.narrow) return false;
+    const F rounding(spheres.tree.extent * Real(0x1p-22));
+    std::uint32_t waiting[most_nodes + tree_width];
+    std::uint32_t end = 1;
+    waiting[0] = 0;
+    for (std::uint32_t at = 0; at < end; ++at) {
+        if (end > most_nodes) return false;
+        const auto& node = spheres.tree.nodes[waiting[at]];
+        for (std::uint32_t c = 0; c < tree_width; c += V::count) {
+            const auto low = load3<V>(node.bound[0] + c, node.bound[2] + c, node.bound[4] + c);
+            const auto high = load3<V>(node.bound[1] + c, node.bound[3] + c, node.bound[5] + c);
+            const Vec3<F> half = (high - low) * F(Real(0.5));
+            // The middle of a box far from the world's origin is rounded by more than the cone allows for.
+            const F radius = root(dot(half, half)) + rounding;
+            // An unused child's box is empty: its half is -inf.
+            std::uint32_t may = bits(cone.may_meet((high + low) * F(Real(0.5)), radius) && half.x >= F(0));
+            for (; may != 0; may &= may - 1) {
+                const std::uint32_t child = node.child[c + static_cast<std::uint32_t>(std::countr_zero(may))];
+                if ((child & leaf_bit) == 0) {
+                    waiting[end++] = child;
+                    continue;
+                }
+                const std::uint32_t first = child & ~leaf_bit;
+                const std::uint32_t last = spheres.count - first < tree_width ? spheres.count : first + tree_width;
+                for (std::uint32_t k = first; k < last; k += V::count) {
+                    const std::uint32_t live = last - k < V::count ? (1u << (last - k)) - 1 : ~0u;
+                    const auto centre = load3<V>(spheres.cx + k, spheres.cy + k, spheres.cz + k);
+                    const std::uint32_t met = bits(cone.may_meet(centre, load<F>(spheres.radius + k))) & live;
+                    compress_store<V>(list.id + list.count, consecutive<V>(k), met);
+                    list.count += static_cast<std::uint32_t>(std::popcount(met));
+                    if (list.count > list.capacity) return false;
+                }
+            }
+            if (end > most_nodes) return false;
+        }
+    }
+    put_in_order(list);
+    return true;
+}
+
+/// The same for rays whose origins and directions stand in the six columns; false also where they are not alike.
+template <class V>
+ORRERY_INLINE bool collect(const SphereTable<typename V::Real>& spheres, const typename V::Real* const (&column)[6],
+                           const typename V::Real* inverse_t_max, std::uint32_t count,
+                           SphereList<typename V::Real>& list) {
+    if (count < V::count || !may_be_coherent(column, inverse_t_max, count)) return false;
+    return collect<V>(spheres, bound<V>(column, inverse_t_max, count), list);
+}
+
+/// The least (t, id) of the list for every ray, as the tree has it: t is divided before it is compared.
+template <class V>
+ORRERY_INLINE void intersect_list(const SphereTable<typename V::Real>& spheres,
+                                  const SphereList<typename V::Real>& list, const RayQueue<typename V::Real>& rays,
+                                  std::uint32_t begin, std::uint32_t end, const HitQueue<typename V::Real>& hits) {
+    using F = typename V::F;
+    using U = typename V::U;
+    for (std::uint32_t i = begin; i < end; i += V::count) {
+        const auto o = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
+        const auto d = load3<V>(rays.dx + i, rays.dy + i, rays.dz + i);
+        const U left = choose(first_lanes<V>(end - i), load<U>(rays.left + i), U(no_sphere));
+        const U left_id = left & U(no_sphere);
+        F t(std::numeric_limits<typename V::Real>::infinity());
+        U id(no_sphere);
+        put_inner_roots<V>(spheres, o, d, left, t, id);
+        list.each([&](std::uint32_t k) ORRERY_INLINE_LAMBDA {
+            const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
+            const auto candidate = line.disc > F(0) && !words_equal(left_id, U(k));
+            if (!any(candidate)) return false;
+            const auto first = first_root<V>(line, root(line.disc), FromOrigin{}, candidate);
+            const F here = first.num / first.den;
+            // Ids ascend: an equal hit counts only before the inner root of a sphere further on.
+            const auto before = words_equal(((U(k) - (id & U(no_sphere))) >> 31) & U(1u), U(1u));
+            const auto tie = here == t && before && !words_equal(id, U(no_sphere));
+            const auto closer = first.exists && (here < t || tie);
+            t = choose(closer, here, t);
+            id = choose(closer, choose(first.inside, U(k | inside_bit), U(k)), id);
+            return false;
+        });
+        save(hits.t + i, t);
+        save(hits.id + i, id);
+    }
+}
+
+}  // namespace orrery::kernels
