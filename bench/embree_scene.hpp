@@ -49,7 +49,8 @@ private:
 /// The configuration queries are fastest with: asked for heavy AVX-512 Embree finds closest hits up to a tenth faster
 /// and occlusion up to a third slower than left alone. isa=avx2 is slower throughout, hugepages=1 changes nothing.
 constexpr const char* embree_config(bool occlusion) {
-    return occlusion ? "threads=1" : "threads=1,frequency_level=simd512";
+    // No threads=1: a query runs on its caller's thread anyway, and the device would keep all of TBB, ours too, to one.
+    return occlusion ? "" : "frequency_level=simd512";
 }
 
 /// Spheres, committed. primID is the place in the table.
