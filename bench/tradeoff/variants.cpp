@@ -42,9 +42,21 @@ Option isas() {
     return choices;
 }
 
+Option roulette_from() {
+    Option choices;
+    for (const std::uint32_t from : {1u, 2u, 3u}) {
+        const auto choose = [](Setup& setup, std::size_t n) {
+            setup.settings.roulette_from = static_cast<std::uint32_t>(n);
+        };
+        choices.push_back({"--roulette-from", std::to_string(from), choose, from});
+    }
+    return choices;
+}
+
 /// Options that are tried one by one.
 std::vector<Option> single_options() {
-    return {isas(),
+    return {roulette_from(),
+            isas(),
             setting<&RenderSettings::precision, precision_words>("--precision"),
             {{"--adaptive", "on", [](Setup& setup, std::size_t) { setup.adaptive = true; }, 0}}};
 }

@@ -110,6 +110,9 @@ void add_method(CLI::App& app, Overrides& overrides) {
                overrides.light_sampling);
     add_choice(app, "--roulette", switch_words, "End dim paths early, by lot (default: the scene's, else on)",
                overrides.roulette);
+    add_number(app, "--roulette-from", "Method",
+               "Let every path scatter so often before its end is drawn for (default: the scene's, else 0)",
+               overrides.roulette_from, 0, any);
 }
 
 void add_machine(CLI::App& app, Arguments& arguments) {

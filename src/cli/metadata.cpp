@@ -29,6 +29,7 @@ std::string canonical_options(const RenderSettings& s, const Goal& goal, ImageFo
     if (s.integrator == Integrator::path_tracing) {
         add("transport", word_for(transport_words, s.transport));
         add("roulette", word_for(switch_words, s.roulette));
+        if (s.roulette) add("roulette-from", s.roulette_from);
     }
     if (format == ImageFormat::ppm || format == ImageFormat::png) {
         add("tonemap", word_for(tonemap_words, tone_mapper(s)));

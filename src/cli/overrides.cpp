@@ -28,6 +28,7 @@ void apply(const Overrides& overrides, RenderSettings& settings) {
     replace(settings.transport, overrides.transport);
     replace(settings.light_sampling, overrides.light_sampling);
     replace(settings.roulette, overrides.roulette);
+    replace(settings.roulette_from, overrides.roulette_from);
     replace(settings.precision, overrides.precision);
     if (overrides.tonemap) settings.tonemap = overrides.tonemap;
     if (overrides.size) {

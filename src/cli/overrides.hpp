@@ -24,6 +24,7 @@ struct Overrides {
     std::optional<Transport> transport;
     std::optional<LightSampling> light_sampling;
     std::optional<bool> roulette;
+    std::optional<std::uint32_t> roulette_from;
     std::optional<ToneMap> tonemap;
     std::optional<Precision> precision;
 };

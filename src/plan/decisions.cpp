@@ -58,11 +58,15 @@ std::vector<Decision> Plan::decisions() const {
            : emitters_ == 0    ? "there is none"
            : naive             ? "naive transport finds them by scattering"
                                : "no surface samples them");
-    decide("roulette: play", n.roulette,
-           n.integrator == Integrator::whitted ? "Whitted ray tracing cuts weak branches instead"
-           : n.roulette                        ? "paths of little throughput end early"
-           : s.roulette                        ? "no path scatters"
-                                               : "switched off; dead rays are still compacted away");
+    decide(
+        "roulette: play", n.roulette,
+        n.integrator == Integrator::whitted ? "Whitted ray tracing cuts weak branches instead"
+        : n.roulette && s.roulette_from > 0
+            ? fmt::format("paths of little throughput end, if they have scattered more than {} times", s.roulette_from)
+        : n.roulette                ? "paths of little throughput end early"
+        : s.roulette && s.depth > 0 ? fmt::format("no path scatters more than {} times", s.roulette_from)
+        : s.roulette                ? "no path scatters"
+                                    : "switched off; dead rays are still compacted away");
     decide("branches", n.branches, n.branches ? "dielectrics are followed both ways" : "nothing is followed both ways");
     return list;
 }

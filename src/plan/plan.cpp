@@ -108,7 +108,7 @@ void Plan::plan_needs() {
         needs_.connect_area = needs_.competing ? rough : diffuse;
         needs_.scattering_pdf = needs_.connect_area != 0;
     }
-    needs_.roulette = s.roulette && s.depth > 0;
+    needs_.roulette = s.roulette && s.depth > s.roulette_from;
     needs_.eta_scale = needs_.roulette && dielectric != 0;
     needs_.lobes = ((needs_.connect_point | needs_.connect_area) & ~diffuse) != 0;
 }

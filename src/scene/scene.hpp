@@ -71,6 +71,7 @@ struct RenderSettings {
     Transport transport = Transport::mis;
     LightSampling light_sampling = LightSampling::cone;
     bool roulette = true;
+    std::uint32_t roulette_from = 0;  ///< so many scattering events of a path are never followed by roulette
     /// Empty: the integrator's own (sigmoid for radiance; a DEPTH image is already in [0, 1] and is left alone).
     std::optional<ToneMap> tonemap;
     std::uint32_t seed = 0;

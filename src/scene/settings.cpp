@@ -73,6 +73,7 @@ RenderSettings read_settings(const Node& renderer, const std::filesystem::path& 
         settings.light_sampling = sampling.value_or(settings.light_sampling);
     }
     read_roulette(fields, settings);
+    if (fields.has("roulette from")) settings.roulette_from = fields.integer("roulette from", 0, any).value_or(0);
     if (fields.has("tonemap")) {
         settings.tonemap = fields.choice<ToneMap>(
             "tonemap", {{"sigmoid", ToneMap::sigmoid}, {"linear", ToneMap::linear}, {"none", ToneMap::none}});

@@ -174,8 +174,9 @@ std::uint32_t roulette(Wave<Real>& w, const Runs& runs, std::uint32_t bounce) {
     for (const auto& run : runs.run) rays += run.count;
     const StageTimer timer(w.counters, Stage::roulette, bounce,
                            {rays, 2 * record_bytes(w.storage.rays), w.stages.step});
-    return w.stages.roulette(w.storage.slots, w.plan.settings().seed, bounce, w.plan.needs().roulette, runs,
-                             w.storage.rays);
+    const RenderSettings& settings = w.plan.settings();
+    const bool play = w.plan.needs().roulette && bounce >= settings.roulette_from;
+    return w.stages.roulette(w.storage.slots, settings.seed, bounce, play, runs, w.storage.rays);
 }
 
 /// Rays that leave a diffuse surface end here: nothing they could run into counts.

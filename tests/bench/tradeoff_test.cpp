@@ -42,6 +42,7 @@ TEST(Variants, BeginWithTheDefaultsAndHaveNamesOfTheirOwn) {
     std::vector<std::string> names;
     for (const Variant& variant : variants) names.push_back(variant.name());
     EXPECT_THAT(names, ::testing::Contains("--transport naive --estimator uniform --roulette off"));
+    EXPECT_THAT(names, ::testing::Contains("--roulette-from 2"));
     EXPECT_THAT(names, ::testing::Contains("--precision double"));
     std::ranges::sort(names);
     EXPECT_EQ(std::ranges::adjacent_find(names), names.end());

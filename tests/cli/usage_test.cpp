@@ -47,6 +47,7 @@ TEST(Usage, RenderHelpNamesEveryOptionItsDefaultAndAnExample) {
                                "--transport naive|nee|mis",
                                "--light-sampling area|cone",
                                "--roulette on|off",
+                               "--roulette-from N",
                                "--tonemap sigmoid|linear|none",
                                "--isa auto|scalar|sse2|avx2|avx512",
                                "--precision auto|float|double",

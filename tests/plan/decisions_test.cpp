@@ -108,5 +108,18 @@ TEST(Decisions, TellWhyAreaLightsAreNotSampled) {
     EXPECT_EQ(reason(shiny), "no surface samples them");
 }
 
+TEST(Decisions, TellFromWhereRouletteIsPlayed) {
+    const auto reason = [](std::uint32_t depth, std::uint32_t from) {
+        Scene scene = world({diffuse});
+        scene.settings.depth = depth;
+        scene.settings.roulette_from = from;
+        return decision(Plan(scene).decisions(), "roulette: play").reason;
+    };
+    EXPECT_EQ(reason(5, 0), "paths of little throughput end early");
+    EXPECT_EQ(reason(5, 2), "paths of little throughput end, if they have scattered more than 2 times");
+    EXPECT_EQ(reason(5, 7), "no path scatters more than 7 times");
+    EXPECT_EQ(reason(0, 0), "no path scatters");
+}
+
 }  // namespace
 }  // namespace orrery::test

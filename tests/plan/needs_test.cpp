@@ -176,6 +176,11 @@ TEST(Needs, RouletteWhereItIsOnAndPathsScatter) {
     scene.settings.depth = 0;
     EXPECT_FALSE(needs_of(scene).roulette || needs_of(scene).eta_scale);
     scene.settings.depth = 5;
+    scene.settings.roulette_from = 4;
+    EXPECT_TRUE(needs_of(scene).roulette && needs_of(scene).eta_scale);
+    scene.settings.roulette_from = 5;
+    EXPECT_FALSE(needs_of(scene).roulette || needs_of(scene).eta_scale) << "the game would begin behind the last event";
+    scene.settings.roulette_from = 0;
     scene.settings.roulette = false;
     EXPECT_FALSE(needs_of(scene).roulette || needs_of(scene).eta_scale);
     EXPECT_FALSE(needs_of(world({diffuse, glossy, specular})).eta_scale) << "nothing scales radiance";

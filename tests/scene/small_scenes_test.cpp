@@ -104,6 +104,16 @@ TEST(SmallScenes, RouletteIsAWordOrABoolean) {
     }
 }
 
+TEST(SmallScenes, RouletteStartsWhereTheSceneSays) {
+    EXPECT_EQ(load("tests/diffuse_point").settings.roulette_from, 0u);
+    Json json = world();
+    json["scene"]["renderer"]["roulette from"] = 3;
+    const ReadResult result = read(json);
+    ASSERT_TRUE(result.scene.has_value()) << listing(result);
+    EXPECT_EQ(result.scene->settings.roulette_from, 3u);
+    EXPECT_TRUE(result.diagnostics.empty()) << listing(result);
+}
+
 TEST(SmallScenes, SampleReads) {
     const Scene scene = load("sample");
     EXPECT_EQ(scene.primitives.size(), 2u);
