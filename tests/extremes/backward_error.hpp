@@ -24,9 +24,9 @@ struct Ball {
 };
 
 /// As long as a direction can be: rounded once.
-template <class Real>
+template <class Real, class W = Wide>
 kernels::Vec3<Real> unit_length(const Double3& v) {
-    const Wide3 exact = unit(widen(v));
+    const Triple<W> exact = unit(widen<W>(v));
     return {static_cast<Real>(exact.x), static_cast<Real>(exact.y), static_cast<Real>(exact.z)};
 }
 

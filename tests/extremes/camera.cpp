@@ -10,17 +10,17 @@ namespace orrery::extremes {
 
 namespace {
 
-Wide3 widen(const glm::dvec3& v) { return {static_cast<Wide>(v.x), static_cast<Wide>(v.y), static_cast<Wide>(v.z)}; }
+Wide3 widen(const dvec3& v) { return {static_cast<Wide>(v.x), static_cast<Wide>(v.y), static_cast<Wide>(v.z)}; }
 Wide3 cross(const Wide3& a, const Wide3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 /// Directions of a pinhole's rays, in roundings of 1, given points of the image plane.
 template <class V>
-void look(Errors& errors, Dice& dice, double fov, double aspect, const glm::dvec3& position, const glm::dvec3& ahead) {
+void look(Errors& errors, Dice& dice, double fov, double aspect, const dvec3& position, const dvec3& ahead) {
     using Real = typename V::Real;
     using F = typename V::F;
-    Scene scene = picture(position, position + ahead, fov, 16);
+    Scene scene = picture(position, position + ahead, fov, 16, 0);
     scene.camera.aspect = aspect;
     scene.settings.precision = sizeof(Real) == 4 ? Precision::binary32 : Precision::binary64;
     const Plan plan(scene);
@@ -42,14 +42,14 @@ void look(Errors& errors, Dice& dice, double fov, double aspect, const glm::dvec
 /// A ball from afar through `width` by `height` pixels, as DEPTH sees it: by how much a distance lies outside of what
 /// the corners of its pixel allow. Pixels are so small that the rim is all that is no function of the corners.
 void measure_a_ball(Errors& errors, const Pipeline& how, std::uint32_t width, std::uint32_t height) {
-    Scene scene = picture({0, 0, -5}, {0, 0, 0}, 20, 1);
+    Scene scene = picture({0, 0, -5}, {0, 0, 0}, 20, 1, 0);
     scene.settings.width = width;
     scene.settings.height = height;
     scene.settings.samples = 1;
     scene.settings.integrator = Integrator::depth;
     scene.camera.aspect = double{1} * width / height;
     if (width > height) scene.camera.fov = 20.0 / width;
-    add_sphere(scene, {0, 0, 0}, 1, diffuse(0.5));
+    add_sphere(scene, {0, 0, 0}, 1, diffuse(dvec3{0.5}));
     const Plan plan(scene);
     const Image image = render(scene, how).image;
     const auto distance = [&](double column, double row) {
@@ -78,8 +78,8 @@ void measure_a_ball(Errors& errors, const Pipeline& how, std::uint32_t width, st
 }  // namespace
 
 void add_camera(std::vector<Case>& cases) {
-    const auto add = [&]<class V>(const char* name, double fov, double aspect, const glm::dvec3& position,
-                                  const glm::dvec3& ahead, V) {
+    const auto add = [&]<class V>(const char* name, double fov, double aspect, const dvec3& position,
+                                  const dvec3& ahead, V) {
         cases.push_back({"camera", name, mode_name<V>(), "u", 4, 10,
                          [=, seed = cases.size()](Errors& errors, std::uint64_t trials) {
                              Dice dice(seed);
@@ -88,7 +88,7 @@ void add_camera(std::vector<Case>& cases) {
                          }});
     };
     const auto add_all = [&]<class V>(V v) {
-        const glm::dvec3 here{1, 2, 3}, ahead{0.3, -0.2, 1};
+        const dvec3 here{1, 2, 3}, ahead{0.3, -0.2, 1};
         add("fov 1e-3", 1e-3, 1, here, ahead, v);
         add("fov 179.9", 179.9, 1, here, ahead, v);
         add("aspect 1e-3", 45, 1e-3, here, ahead, v);

@@ -28,6 +28,7 @@ std::vector<Case> all_cases() {
     add_sums(cases);
     add_camera(cases);
     add_relations(cases);
+    add_pictures(cases);
     return in_order_of_the_table(cases);
 }
 

@@ -18,6 +18,7 @@ struct Case {
     double limit;       ///< the greatest error we promise
     std::uint64_t trials;
     std::function<void(Errors&, std::uint64_t trials)> run;
+    std::uint64_t times_on_page = 10;  ///< as many times the trials where the page is made
 };
 
 /// The order is that of the table.
@@ -30,5 +31,6 @@ void add_material(std::vector<Case>& cases);
 void add_sums(std::vector<Case>& cases);
 void add_camera(std::vector<Case>& cases);
 void add_relations(std::vector<Case>& cases);
+void add_pictures(std::vector<Case>& cases);
 
 }  // namespace orrery::extremes

@@ -1,34 +1,26 @@
-// Random input, the same on every machine: of the standard library only the engine is specified to the bit.
+// Random input in the kernels' vectors, and what a number format makes of it.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
-#include <random>
 
 #include "kernels/vec3.hpp"
+#include "random_numbers.hpp"
 
 namespace orrery::extremes {
 
 using Double3 = kernels::Vec3<double>;
 
-class Dice {
+class Dice : public test::RandomNumbers {
 public:
-    explicit Dice(std::uint64_t seed) : engine_(seed) {}
-    double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-    double between(double low, double high) { return low + (high - low) * uniform(); }
-    /// Uniform in the logarithm.
-    double scale(double low, double high) { return low * std::pow(high / low, uniform()); }
+    using RandomNumbers::RandomNumbers;
     /// Integers from low to high, both included.
     int integer(int low, int high) {
-        return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
+        return low + static_cast<int>(bits() % static_cast<std::uint64_t>(high - low + 1));
     }
-    bool coin() { return (engine_() >> 63) != 0; }
-    Double3 direction() {
-        const double z = between(-1, 1), phi = between(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
-        return {r * std::cos(phi), r * std::sin(phi), z};
-    }
+    bool coin() { return (bits() >> 63) != 0; }
+    Double3 direction() { return on_sphere<Double3>(); }
     /// Unit length, at a right angle to `axis`.
     Double3 across(const Double3& axis) {
         while (true) {
@@ -36,9 +28,6 @@ public:
             if (kernels::dot(v, v) > 1e-4 * kernels::dot(axis, axis)) return kernels::unit(v);
         }
     }
-
-private:
-    std::mt19937_64 engine_;
 };
 
 template <class Real>

@@ -6,6 +6,7 @@
 #include "cases.hpp"
 #include "kernels/connect.hpp"
 #include "spheres.hpp"
+#include "trials.hpp"
 
 namespace orrery::extremes {
 
@@ -54,12 +55,15 @@ kernels::Sphere<typename V::F> sphere_of(const Ball<typename V::Real>& ball) {
     return {broadcast<V>(ball.centre), F(ball.radius), F(ball.radius * ball.radius)};
 }
 
-/// A sample as a hit that the light's own geometry must confirm. No sample: no error.
+/// What is no sample has no error.
+constexpr double no_sample = -1;
+
+/// A sample as a hit that the light's own geometry must confirm.
 template <class V>
 double error_of_place(const Lit<typename V::Real>& lit, const kernels::LightSample<V>& sample, bool inside) {
     using Real = typename V::Real;
     using kernels::any;
-    if (!any(sample.valid)) return 0;
+    if (!any(sample.valid)) return no_sample;
     Ray<Real> ray;
     ray.origin = lit.point;
     ray.direction = first_lanes<V>(sample.direction);
@@ -97,13 +101,42 @@ double error_of_cone_density(const Lit<typename V::Real>& lit) {
     return static_cast<double>(magnitude(value - exact) / (change + unit * exact));
 }
 
-template <class V, bool inside>
-double error_of_area_place(const Lit<typename V::Real>& lit) {
+template <class Real>
+bool within(const Lit<Real>& lit) {
+    return length(widen(lit.point) - widen(lit.light.centre)) < static_cast<Wide>(lit.light.radius);
+}
+
+template <class V>
+kernels::LightSample<V> area_sample(const Lit<typename V::Real>& lit) {
     using F = typename V::F;
-    return error_of_place<V>(lit,
-                             kernels::sample_light_area<V>(broadcast<V>(lit.point), sphere_of<V>(lit.light),
-                                                           typename V::M(inside), F(lit.u), F(lit.v)),
-                             inside);
+    return kernels::sample_light_area<V>(broadcast<V>(lit.point), sphere_of<V>(lit.light), typename V::M(within(lit)),
+                                         F(lit.u), F(lit.v));
+}
+
+template <class V>
+double error_of_area_place(const Lit<typename V::Real>& lit) {
+    return error_of_place<V>(lit, area_sample<V>(lit), within(lit));
+}
+
+/// Of 1 / density: the area, foreshortened, over the square of the distance. In roundings of C - O and r, of which the
+/// distance has (f + r) / distance and so the result three.
+template <class V>
+double error_of_area_density(const Lit<typename V::Real>& lit) {
+    using Real = typename V::Real;
+    using F = typename V::F;
+    using kernels::any;
+    const auto sample = area_sample<V>(lit);
+    if (!any(sample.valid)) return no_sample;
+    const Wide3 n = widen(first_lanes<V>(kernels::sample_unit_sphere<V>(F(lit.u), F(lit.v))));
+    const Wide3 f = widen(lit.light.centre) - widen(lit.point);
+    const Wide r = static_cast<Wide>(lit.light.radius);
+    const Wide3 to = f + r * n;
+    const Wide distance = length(to), seen = r / distance;
+    const Wide exact = magnitude(dot(n, to)) / distance * seen * seen;
+    const Wide value =
+        static_cast<Wide>(first_lane(sample.inverse_pdf)) / (4 * static_cast<Wide>(std::numbers::pi_v<long double>));
+    const Wide unit = static_cast<Wide>(rounding_unit<Real>) * (length(f) + r) / distance;
+    return static_cast<double>(magnitude(value - exact) / (unit * seen * seen));
 }
 
 /// A point light over a diffuse surface, within some roundings of the horizon or anywhere: what it brings, in roundings
@@ -134,21 +167,13 @@ void light_a_plane(Errors& errors, Dice& dice) {
     errors.add(static_cast<double>(magnitude(factor - wanted) / (whole * static_cast<Wide>(rounding_unit<Real>))));
 }
 
-template <class V, class Trial>
-void add(std::vector<Case>& cases, const char* name, const char* unit, double limit, const Trial& trial) {
-    cases.push_back({"light", name, mode_name<V>(), unit, limit, 4000,
-                     [trial, seed = cases.size()](Errors& errors, std::uint64_t count) {
-                         Dice dice(seed);
-                         for (std::uint64_t i = 0; i < count; ++i) trial(errors, dice);
-                     }});
-}
-
 template <class V, class Make>
 void add_sampled(std::vector<Case>& cases, const char* name, const char* unit, double limit,
                  double (*error_of)(const Lit<typename V::Real>&), const Make& make) {
-    add<V>(cases, name, unit, limit, [=](Errors& errors, Dice& dice) {
+    add_trials<V>(cases, "light", name, unit, limit, 4000, [=](Errors& errors, Dice& dice) {
         const auto lit = make(dice);
-        errors.add(error_of(lit), [&] { return text_of(lit); });
+        const double error = error_of(lit);
+        if (error != no_sample) errors.add(error, [&] { return text_of(lit); });
     });
 }
 
@@ -161,18 +186,22 @@ void add_light(std::vector<Case>& cases) {
         const auto near = [](Dice& dice) {
             return lit_from<Real>(dice, 1 + dice.scale(rounding_unit<Real>, 1e-2) * (dice.coin() ? 1 : -1));
         };
-        const auto within = [](Dice& dice) { return lit_from<Real>(dice, dice.uniform()); };
+        const auto inside = [](Dice& dice) { return lit_from<Real>(dice, dice.uniform()); };
         const char* const place = "u (f + r)";
         const char* const angle = "u and a rounding of the input";
-        add_sampled<V>(cases, "cone, place sampled, up to 1e8 radii away", place, 5, error_of_cone_place<V>, far);
-        add_sampled<V>(cases, "cone, place sampled, at the surface", place, 5, error_of_cone_place<V>, near);
+        add_sampled<V>(cases, "cone, place sampled, up to 1e8 radii away", place, 8, error_of_cone_place<V>, far);
+        add_sampled<V>(cases, "cone, place sampled, at the surface", place, 8, error_of_cone_place<V>, near);
         add_sampled<V>(cases, "cone, solid angle, up to 1e8 radii away", angle, 2, error_of_cone_density<V>, far);
         add_sampled<V>(cases, "cone, solid angle, at the surface", angle, 2, error_of_cone_density<V>, near);
-        add_sampled<V>(cases, "area, place sampled, up to 1e8 radii away", place, 4, error_of_area_place<V, false>,
-                       far);
-        add_sampled<V>(cases, "area, place sampled, at the surface", place, 4, error_of_area_place<V, false>, near);
-        add_sampled<V>(cases, "area, place sampled, from within", place, 10, error_of_area_place<V, true>, within);
-        add<V>(cases, "point light 1e-8 to 1e8 away, at the horizon", "u cos 0", 10, light_a_plane<V>);
+        add_sampled<V>(cases, "area, place sampled, up to 1e8 radii away", place, 4, error_of_area_place<V>, far);
+        add_sampled<V>(cases, "area, place sampled, at the surface", place, 10, error_of_area_place<V>, near);
+        add_sampled<V>(cases, "area, place sampled, from within", place, 10, error_of_area_place<V>, inside);
+        const char* const density = "u (f + r) / distance";
+        add_sampled<V>(cases, "area, density, up to 1e8 radii away", density, 15, error_of_area_density<V>, far);
+        add_sampled<V>(cases, "area, density, at the surface", density, 15, error_of_area_density<V>, near);
+        add_sampled<V>(cases, "area, density, from within", density, 20, error_of_area_density<V>, inside);
+        add_trials<V>(cases, "light", "point light 1e-8 to 1e8 away, at the horizon", "u cos 0", 10, 4000,
+                      light_a_plane<V>);
     });
 }
 

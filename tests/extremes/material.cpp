@@ -2,12 +2,10 @@
 // critical angle, grazing light, lobes as narrow as a rounding and as wide as the half space.
 #include <fmt/format.h>
 
-#include "cases.hpp"
-#include "dice.hpp"
+#include "backward_error.hpp"
 #include "kernels/fresnel.hpp"
 #include "kernels/glossy.hpp"
-#include "modes.hpp"
-#include "wide.hpp"
+#include "trials.hpp"
 
 namespace orrery::extremes {
 
@@ -68,14 +66,10 @@ template <class V>
 void refract(Errors& errors, Dice& dice, typename V::Real eta) {
     using Real = typename V::Real;
     using F = typename V::F;
-    const auto unit_length = [](const Double3& v) {
-        const Wide3 exact = unit(widen(v));
-        return kernels::Vec3<Real>{static_cast<Real>(exact.x), static_cast<Real>(exact.y), static_cast<Real>(exact.z)};
-    };
     const Double3 axis = dice.direction();
     const double sine = dice.uniform() * std::fmin(1, 0.999 * static_cast<double>(eta));
-    const auto n = unit_length(axis);
-    const auto d = unit_length(dice.across(axis) * sine - axis * std::sqrt(1 - sine * sine));
+    const auto n = unit_length<Real>(axis);
+    const auto d = unit_length<Real>(dice.across(axis) * sine - axis * std::sqrt(1 - sine * sine));
     const auto normal = broadcast<V>(n), direction = broadcast<V>(d);
     const F cosine = F(0) - kernels::dot(normal, direction);
     const auto at = kernels::interface_at<V>(cosine, F(eta));
@@ -92,44 +86,104 @@ void refract(Errors& errors, Dice& dice, typename V::Real eta) {
                [&] { return fmt::format("eta {:a}, sine {:a}", eta, sine); });
 }
 
-/// A sample of a lobe and its density: a direction of unit length, on the right side, within the lobe, with a density
-/// that is >= 0 or, on the very edge, infinite.
+/// A lobe of width beta about a direction over a surface, and a sample of it.
 template <class V>
-void perturb(Errors& errors, Dice& dice, double beta) {
+struct Perturbed {
+    using Real = typename V::Real;
+    kernels::Vec3<Real> lobe, normal;
+    Real cosine, beta;
+    Real u, v;
+    kernels::GlossySample<typename V::F> sample;
+
+    Wide3 direction() const { return widen(first_lanes<V>(sample.direction)); }
+    /// R + beta S may be as short as 1 - beta, and what its rounding is to its length as much larger.
+    Wide rounding() const { return static_cast<Wide>(rounding_unit<Real>) / (1 - static_cast<Wide>(beta)); }
+    std::string text() const { return fmt::format("beta {:a}, cosine {:a}, u {:a}, v {:a}", beta, cosine, u, v); }
+};
+
+template <class V>
+Perturbed<V> any_perturbed(Dice& dice, double beta) {
     using Real = typename V::Real;
     using F = typename V::F;
     const double cosine = dice.coin() ? dice.uniform() : dice.scale(1e-9, 1);
     const Double3 axis = dice.direction();
-    const auto n = rounded<Real>(axis);
-    const auto lobe = rounded<Real>(axis * cosine + dice.across(axis) * std::sqrt(1 - cosine * cosine));
     const auto number = [&] {
         return static_cast<Real>(dice.integer(0, 3) == 0 ? dice.integer(0, 1) * (1 - 0x1p-24)
                                                          : dice.integer(0, (1 << 24) - 1) * 0x1p-24);
     };
-    const auto b = static_cast<Real>(beta), u = number(), v = number();
-    const auto sample =
-        kernels::sample_glossy<V>(broadcast<V>(lobe), broadcast<V>(n), F(static_cast<Real>(cosine)), F(b), F(u), F(v));
-    const Wide3 direction = widen(first_lanes<V>(sample.direction));
-    const auto unit = static_cast<Wide>(rounding_unit<Real>);
-    // R + beta S may be as short as 1 - beta, and what its rounding is to its length as much larger.
-    const Wide3 exact_lobe = widen(lobe);
-    const Wide along = dot(exact_lobe, direction), size = length(direction), lobe_size = length(exact_lobe);
-    const Wide sine2 = 1 - along / size / lobe_size * (along / size / lobe_size);
-    const Wide sine = root(std::max(Wide(0), sine2));
-    const Wide below = -dot(widen(n), direction), outside = sine - static_cast<Wide>(b);
-    const Wide error = std::max(std::max(below, outside), magnitude(size - 1)) / unit * (1 - static_cast<Wide>(b));
-    const bool density = first_lane(sample.pdf) >= 0;
-    errors.add(density ? static_cast<double>(std::max(Wide(0), error)) : std::numeric_limits<double>::infinity(),
-               [&] { return fmt::format("beta {:a}, cosine {:a}, u {:a}, v {:a}", b, cosine, u, v); });
+    const auto lobe = rounded<Real>(axis * cosine + dice.across(axis) * std::sqrt(1 - cosine * cosine));
+    Perturbed<V> p{lobe, rounded<Real>(axis), static_cast<Real>(cosine), static_cast<Real>(beta), number(), number(),
+                   {}};
+    p.sample =
+        kernels::sample_glossy<V>(broadcast<V>(p.lobe), broadcast<V>(p.normal), F(p.cosine), F(p.beta), F(p.u), F(p.v));
+    return p;
 }
 
-template <class V, class Trial>
-void add(std::vector<Case>& cases, const char* name, const char* unit, double limit, const Trial& trial) {
-    cases.push_back({"material", name, mode_name<V>(), unit, limit, 2000,
-                     [trial, seed = cases.size()](Errors& errors, std::uint64_t count) {
-                         Dice dice(seed);
-                         for (std::uint64_t i = 0; i < count; ++i) trial(errors, dice);
-                     }});
+Wide sine_between(const Wide3& a, const Wide3& b) {
+    const Wide cosine = dot(a, b) / length(a) / length(b);
+    return root(std::max(Wide(0), (1 - cosine) * (1 + cosine)));
+}
+
+/// A direction of unit length, on the right side, within the lobe, with a density that is a number.
+template <class V>
+void perturb(Errors& errors, Dice& dice, double beta) {
+    const auto p = any_perturbed<V>(dice, beta);
+    const Wide3 direction = p.direction();
+    const Wide below = -dot(widen(p.normal), direction);
+    const Wide outside = sine_between(widen(p.lobe), direction) - static_cast<Wide>(p.beta);
+    const Wide error = std::max(std::max(below, outside), magnitude(length(direction) - 1)) / p.rounding();
+    const bool density = first_lane(p.sample.pdf) >= 0;
+    errors.add(density ? static_cast<double>(std::max(Wide(0), error)) : std::numeric_limits<double>::infinity(),
+               [&] { return p.text(); });
+}
+
+/// Density at the sine of an angle to the lobe, before it is conditioned on a side; infinite from beta on.
+Wide density_of_lobe(Wide sine, Wide beta) {
+    if (sine >= beta) return std::numeric_limits<double>::infinity();
+    return (1 - 2 * sine * sine + beta * beta) /
+           (2 * static_cast<Wide>(std::numbers::pi_v<long double>) * beta * root((beta - sine) * (beta + sine)));
+}
+
+/// How far the direction would have to turn, in roundings, for the density to be that of its angle: as the density goes
+/// to infinity at the edge of the lobe, no other measure holds there. Beyond the edge it is 0.
+template <class V>
+double turn_to_density(const Perturbed<V>& p, Wide density) {
+    if (!(density >= 0)) return std::numeric_limits<double>::infinity();
+    const Wide beta = static_cast<Wide>(p.beta);
+    // Lengths of R + beta S come in twice.
+    const Wide rounding = p.rounding() / (1 - beta);
+    const Wide side = (1 + std::min(Wide(1), static_cast<Wide>(p.cosine) / beta)) / 2;
+    const Wide sine = sine_between(widen(p.lobe), p.direction());
+    const Wide lowest_at = root(std::max(Wide(0), (3 * beta * beta - 1) / 2));  // the density's only minimum
+    for (double turns = 0x1p-3; turns < 0x1p20; turns *= 1.2) {
+        const Wide turn = static_cast<Wide>(turns);
+        const Wide from = std::max(Wide(0), sine - turn * rounding), to = sine + turn * rounding;
+        if (density == 0 && to >= beta) return turns;
+        const Wide low = density_of_lobe(std::clamp(lowest_at, from, to), beta);
+        const Wide high = std::max(density_of_lobe(from, beta), density_of_lobe(to, beta));
+        const Wide value = density * side;
+        if (value >= low * (1 - turn * rounding) && value <= high * (1 + turn * rounding)) return turns;
+    }
+    return std::numeric_limits<double>::infinity();
+}
+
+/// The density that comes with the sample.
+template <class V>
+void sampled_density(Errors& errors, Dice& dice, double beta) {
+    const auto p = any_perturbed<V>(dice, beta);
+    errors.add(turn_to_density(p, static_cast<Wide>(first_lane(p.sample.pdf))), [&] { return p.text(); });
+}
+
+/// The density as it is found for a direction from elsewhere.
+template <class V>
+void evaluated_density(Errors& errors, Dice& dice, double beta) {
+    using F = typename V::F;
+    const auto p = any_perturbed<V>(dice, beta);
+    const auto normal = broadcast<V>(p.normal);
+    const F above = kernels::dot(p.sample.direction, normal);
+    if (!(first_lane(above) > 0)) return;  // by a rounding
+    const F pdf = kernels::glossy_pdf<V>(broadcast<V>(p.lobe), F(p.cosine), F(p.beta), p.sample.direction, above);
+    errors.add(turn_to_density(p, static_cast<Wide>(first_lane(pdf))), [&] { return p.text(); });
 }
 
 /// Any index, and an angle of incidence within some roundings of the critical one.
@@ -145,9 +199,12 @@ Incidence<Real> critical(Dice& dice) {
 void add_material(std::vector<Case>& cases) {
     for_each_mode([&]<class V>() {
         using Real = typename V::Real;
+        const auto add = [&](const std::string& name, const char* unit, double limit, const auto& trial) {
+            add_trials<V>(cases, "material", name, unit, limit, 2000, trial);
+        };
         const char* const unit = "u and a rounding of the input";
         const auto add_index = [&](const char* name, double eta, bool grazing) {
-            add<V>(cases, name, unit, eta == 1 ? 0.1 : 6, [=](Errors& errors, Dice& dice) {
+            add(name, unit, eta == 1 ? 0.1 : 6, [=](Errors& errors, Dice& dice) {
                 cross_interface<V>(errors, {static_cast<Real>(grazing ? dice.scale(1e-9, 1e-2) : dice.uniform()),
                                             static_cast<Real>(eta)});
             });
@@ -155,21 +212,29 @@ void add_material(std::vector<Case>& cases) {
         add_index("Fresnel, eta 1", 1, false);
         add_index("Fresnel, eta 0.9999999", 1 - 1e-7, false);
         add_index("Fresnel, eta 1.0000001", 1 + 1e-7, false);
-        add<V>(cases, "Fresnel, eta 1e-3, below the critical angle", unit, 6, [](Errors& errors, Dice& dice) {
+        add("Fresnel, eta 1e-3, below the critical angle", unit, 6, [](Errors& errors, Dice& dice) {
             cross_interface<V>(errors, {static_cast<Real>(1 - 5e-7 * dice.uniform()), static_cast<Real>(1e-3)});
         });
         add_index("Fresnel, eta 1e3", 1e3, false);
         add_index("Fresnel, eta 1.5, cosine 1e-9 to 0.01", 1.5, true);
         add_index("Fresnel, eta 1, cosine 1e-9 to 0.01", 1, true);
         add_index("Fresnel, eta 1.0000001, cosine 1e-9 to 0.01", 1 + 1e-7, true);
-        add<V>(cases, "Fresnel, within 4 numbers of the critical angle", unit, 2,
-               [](Errors& errors, Dice& dice) { cross_interface<V>(errors, critical<Real>(dice)); });
+        add("Fresnel, within 4 numbers of the critical angle", unit, 2,
+            [](Errors& errors, Dice& dice) { cross_interface<V>(errors, critical<Real>(dice)); });
         for (const double eta : {1., 1 - 1e-7, 1 + 1e-7, 1e-3, 1e3})
-            add<V>(cases, fmt::format("refracted direction, eta {}", eta).c_str(), "a rounding of the cosine", 5,
-                   [=](Errors& errors, Dice& dice) { refract<V>(errors, dice, static_cast<Real>(eta)); });
+            add(fmt::format("refracted direction, eta {}", eta), "a rounding of the cosine", 5,
+                [=](Errors& errors, Dice& dice) { refract<V>(errors, dice, static_cast<Real>(eta)); });
+        const char* const turn = "u / (1 - beta)";
+        const char* const twice = "u / (1 - beta)^2";
         for (const double beta : {1e-8, 1e-3, 0.999999})
-            add<V>(cases, fmt::format("glossy sample, roughness {}", beta).c_str(), "u / (1 - beta)", 6,
-                   [=](Errors& errors, Dice& dice) { perturb<V>(errors, dice, beta); });
+            add(fmt::format("glossy sample, roughness {}", beta), turn, 6,
+                [=](Errors& errors, Dice& dice) { perturb<V>(errors, dice, beta); });
+        for (const double beta : {1e-8, 1e-3, 0.5, 0.99, 0.999999})
+            add(fmt::format("glossy density, sampled, roughness {}", beta), twice, 8,
+                [=](Errors& errors, Dice& dice) { sampled_density<V>(errors, dice, beta); });
+        for (const double beta : {1e-8, 1e-3, 0.5, 0.99, 0.999999})
+            add(fmt::format("glossy density, evaluated, roughness {}", beta), twice, 8,
+                [=](Errors& errors, Dice& dice) { evaluated_density<V>(errors, dice, beta); });
     });
 }
 

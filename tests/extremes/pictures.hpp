@@ -1,35 +1,24 @@
 // Whole pictures, where an extreme is one of the pipeline and not of a formula.
 #pragma once
 
-#include <glm/vec3.hpp>
-
-#include "wavefront/render.hpp"
+#include "wavefront/scenes.hpp"
 
 namespace orrery::extremes {
 
-inline Scene picture(const glm::dvec3& eye, const glm::dvec3& target, double fov, std::uint32_t size) {
-    Scene scene;
-    scene.camera.position = eye;
-    scene.camera.target = target;
-    scene.camera.fov = fov;
+using test::add_lamp;
+using test::add_point_light;
+using test::add_sphere;
+using test::diffuse;
+using test::dvec3;
+using test::glass;
+using test::glossy;
+using test::mirror;
+
+/// A square picture of nothing yet.
+inline Scene picture(const dvec3& eye, const dvec3& target, double fov, std::uint32_t size, std::uint32_t depth) {
+    Scene scene = test::picture(eye, target, fov, depth);
     scene.settings.width = scene.settings.height = size;
     return scene;
-}
-
-inline Material diffuse(double rho) { return {.id = "diffuse", .rho = glm::dvec3{rho}}; }
-inline Material mirror(double rho) { return {.id = "mirror", .kind = MaterialKind::specular, .rho = glm::dvec3{rho}}; }
-
-inline Primitive& add_sphere(Scene& scene, const glm::dvec3& centre, double radius, const Material& material) {
-    scene.materials.push_back(material);
-    const auto index = static_cast<std::uint32_t>(scene.materials.size() - 1);
-    return scene.primitives.emplace_back(Primitive{"sphere", centre, radius, index, {}});
-}
-inline void add_lamp(Scene& scene, const glm::dvec3& centre, double radius, const glm::dvec3& radiance,
-                     const Material& material) {
-    add_sphere(scene, centre, radius, material).emission = radiance;
-}
-inline void add_point_light(Scene& scene, const glm::dvec3& position, const glm::dvec3& intensity) {
-    scene.point_lights.push_back({"point", position, intensity});
 }
 
 /// A way to compute a picture that has bits of its own.
@@ -46,11 +35,13 @@ inline std::vector<Pipeline> pipelines() {
     return all;
 }
 
+/// With the standard error of every pixel.
 inline RenderResult render(Scene scene, const Pipeline& how) {
     scene.settings.precision = how.precision;
     RenderOptions options;
     options.threads = 1;
     options.isa = how.isa;
+    options.standard_error = true;
     return orrery::render(Plan(std::move(scene)), options);
 }
 

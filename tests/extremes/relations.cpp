@@ -1,12 +1,9 @@
 // What must hold whatever the numbers are: a world twice as large, moved, mirrored or listed backwards is the same
-// world, rays that share a cone meet what each of them would alone, and no number is lost on the way to a picture.
+// world, and rays that share a cone meet what each of them would alone.
 #include <fmt/format.h>
 
-#include <numeric>
-
-#include "cases.hpp"
-#include "pictures.hpp"
 #include "spheres.hpp"
+#include "trials.hpp"
 
 namespace orrery::extremes {
 
@@ -144,86 +141,22 @@ void share_a_cone(Errors& errors, Dice& dice) {
         errors.add(ids[0][i] == ids[1][i] && distances[0][i] == distances[1][i] ? 0 : 1);
 }
 
-/// A scene of anything at any size, `away` times its size or less from the origin.
-Scene wild(Dice& dice, double away) {
-    const double size = dice.scale(1e-5, 1e6);
-    Scene scene = picture({0, 0, 0}, {0, 0, 1}, dice.between(1, 170), 8);
-    scene.settings.samples = 4;
-    scene.settings.depth = 12;
-    scene.settings.seed = static_cast<std::uint32_t>(dice.integer(0, 1 << 30));
-    const Double3 place = dice.direction() * (dice.coin() ? 0 : size * dice.scale(1, away));
-    const auto at = [&](double reach) {
-        const Double3 v = place + dice.direction() * reach;
-        return glm::dvec3{v.x, v.y, v.z};
-    };
-    scene.camera.position = at(size);
-    scene.camera.target = at(size * 0.5);
-    scene.camera.aperture = dice.coin() ? 0 : size * dice.scale(1e-8, 1);
-    scene.camera.focal_distance = size * dice.scale(1e-3, 1e3);
-    if (scene.camera.position == scene.camera.target) scene.camera.target.z += 1;
-    constexpr double etas[] = {1, 1 - 1e-7, 1 + 1e-7, 1e-3, 1e3, 1.5}, betas[] = {1e-8, 1e-3, 0.5, 0.999999};
-    for (int i = 0; i < 20; ++i) {
-        const double rho = dice.integer(0, 2) * 0.5;
-        Material m{.id = "m", .kind = static_cast<MaterialKind>(dice.integer(0, 4)), .rho = glm::dvec3{rho}};
-        m.rho_t = glm::dvec3{1 - rho};
-        m.eta = etas[dice.integer(0, 5)];
-        if (m.kind == MaterialKind::glossy || m.kind == MaterialKind::translucent)
-            m.roughness = betas[dice.integer(0, 3)];
-        auto& sphere = add_sphere(scene, at(size * dice.scale(1e-3, 10)), size * dice.scale(1e-6, 3), m);
-        if (dice.integer(0, 3) == 0) sphere.emission = glm::dvec3{dice.scale(1e-30, 1e12)};
-    }
-    if (dice.coin()) add_point_light(scene, at(size), glm::dvec3{dice.scale(1e-30, 1e12)});
-    scene.settings.integrator = dice.coin() ? Integrator::path_tracing : Integrator::whitted;
-    scene.settings.transport = static_cast<Transport>(dice.integer(0, 2));
-    scene.settings.light_sampling = static_cast<LightSampling>(dice.integer(0, 1));
-    scene.settings.roulette = dice.coin();
-    return scene;
-}
-
-/// Pixels that are no numbers, and samples dropped where none should be.
-void render_wild_scenes(Errors& errors, const Pipeline& how, std::uint64_t scenes, double away, bool may_drop) {
-    Dice dice(5);
-    for (std::uint64_t i = 0; i < scenes; ++i) {
-        const auto result = render(wild(dice, away), how);
-        double lost = may_drop ? 0 : static_cast<double>(result.stats.dropped_samples);
-        for (const Rgb& p : result.image.pixels)
-            lost += std::isfinite(p.r + p.g + p.b) && std::min({p.r, p.g, p.b}) >= 0 ? 0 : 1;
-        errors.add(lost, [&] { return fmt::format("scene {}", i); });
-    }
-}
-
-template <class V, class Trial>
-void add(std::vector<Case>& cases, const char* name, const char* unit, double limit, std::uint64_t trials,
-         const Trial& trial) {
-    cases.push_back({"relations", name, mode_name<V>(), unit, limit, trials,
-                     [trial, seed = cases.size()](Errors& errors, std::uint64_t count) {
-                         Dice dice(seed);
-                         for (std::uint64_t i = 0; i < count; ++i) trial(errors, dice);
-                     }});
-}
-
 }  // namespace
 
 void add_relations(std::vector<Case>& cases) {
     for_each_mode([&]<class V>() {
-        add<V>(cases, "scaled by 2^-20 to 2^20", "other hits", 0, 20000, scale<V>);
-        add<V>(cases, "mirrored", "other hits", 0, 20000, mirror_world<V>);
-        add<V>(cases, "listed backwards", "other hits", 0, 20000, list_backwards<V>);
-        for (const double far : {1e3, 1e6})
-            add<V>(cases, fmt::format("moved by {:g}", far).c_str(), "u (moved + f + r)", 7, 1000,
-                   [=](Errors& errors, Dice& dice) { translate<V>(errors, dice, far); });
-        add<V>(cases, "culled as a bunch of 256 rays", "lost hits", 0, 100, share_a_cone<V>);
-    });
-    for (const Pipeline& how : pipelines()) {
-        const auto add_pictures = [&](const char* name, const char* unit, double away, bool may_drop) {
-            cases.push_back({"relations", name, how.mode, unit, 0, 60, [=](Errors& errors, std::uint64_t scenes) {
-                                 render_wild_scenes(errors, how, scenes, away, may_drop);
-                             }});
+        const auto add = [&](const std::string& name, const char* unit, double limit, std::uint64_t trials,
+                             const auto& trial) {
+            add_trials<V>(cases, "relations", name, unit, limit, trials, trial);
         };
-        add_pictures("pictures of anything at any size", "samples dropped, pixels not finite", 1e3, false);
-        // Up to where all coordinates are the same number: samples that are no number are dropped and counted.
-        add_pictures("pictures lost in rounding", "pixels not finite", 1e13, true);
-    }
+        add("scaled by 2^-20 to 2^20", "other hits", 0, 20000, scale<V>);
+        add("mirrored", "other hits", 0, 20000, mirror_world<V>);
+        add("listed backwards", "other hits", 0, 20000, list_backwards<V>);
+        for (const double far : {1e3, 1e6})
+            add(fmt::format("moved by {:g}", far), "u (moved + f + r)", 7, 1000,
+                [=](Errors& errors, Dice& dice) { translate<V>(errors, dice, far); });
+        add("culled as a bunch of 256 rays", "lost hits", 0, 100, share_a_cone<V>);
+    });
 }
 
 }  // namespace orrery::extremes

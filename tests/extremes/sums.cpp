@@ -48,9 +48,8 @@ void expect(Errors& errors, const Image& image, double exact, double unit) {
 
 /// In a closed box that reflects everything each of the 10 001 vertices of a path adds what the box emits.
 void reflect_ten_thousand_times(Errors& errors, const Pipeline& how, const Material& material, double radiance) {
-    Scene scene = picture({0.3, 0.2, -0.4}, {0.1, 0.9, 0.3}, 90, 4);
-    add_lamp(scene, {0.1, -0.1, 0}, 1.5, glm::dvec3{radiance}, material);
-    scene.settings.depth = 10000;
+    Scene scene = picture({0.3, 0.2, -0.4}, {0.1, 0.9, 0.3}, 90, 4, 10000);
+    add_lamp(scene, {0.1, -0.1, 0}, 1.5, dvec3{radiance}, material);
     scene.settings.roulette = false;
     scene.settings.transport = Transport::naive;
     scene.settings.samples = 4;
@@ -59,11 +58,10 @@ void reflect_ten_thousand_times(Errors& errors, const Pipeline& how, const Mater
 
 /// A floor lit by `count` point lights at one place, which share what one would have.
 Image lit_by(std::uint32_t count, const Pipeline& how) {
-    Scene scene = picture({0, 2, -6}, {0, 0.7, 0}, 36, 4);
-    scene.settings.depth = 1;
+    Scene scene = picture({0, 2, -6}, {0, 0.7, 0}, 36, 4, 1);
     scene.settings.samples = 1;
-    add_sphere(scene, {0, -40, 0}, 40, diffuse(0.8));
-    for (std::uint32_t i = 0; i < count; ++i) add_point_light(scene, {1, 3, -2}, glm::dvec3{50.0 / count});
+    add_sphere(scene, {0, -40, 0}, 40, diffuse(dvec3{0.8}));
+    for (std::uint32_t i = 0; i < count; ++i) add_point_light(scene, {1, 3, -2}, dvec3{50.0 / count});
     return render(scene, how).image;
 }
 void share_among_lights(Errors& errors, const Pipeline& how) {
@@ -78,11 +76,10 @@ void share_among_lights(Errors& errors, const Pipeline& how) {
 void light_with_every_power(Errors& errors, const Pipeline& how) {
     for (const double power : {1e-30, 1e30}) {
         for (const bool other : {false, true}) {
-            Scene scene = picture({0, 0, -0.5}, {0, 0, 0}, 60, 4);
-            scene.settings.depth = 1;
-            add_sphere(scene, {0, 0, 0}, 1, diffuse(0.5));
-            add_point_light(scene, {0, 0, 0}, glm::dvec3{power});
-            if (other) add_point_light(scene, {0, 0, 7}, glm::dvec3{1e30});  // outside
+            Scene scene = picture({0, 0, -0.5}, {0, 0, 0}, 60, 4, 1);
+            add_sphere(scene, {0, 0, 0}, 1, diffuse(dvec3{0.5}));
+            add_point_light(scene, {0, 0, 0}, dvec3{power});
+            if (other) add_point_light(scene, {0, 0, 7}, dvec3{1e30});  // outside
             // From the centre every point is lit alike: rho / pi I / r^2.
             expect(errors, render(scene, how).image, 0.5 / std::numbers::pi * power, u);
         }
@@ -96,16 +93,17 @@ void add_sums(std::vector<Case>& cases) {
                          std::function<void(Errors&, std::uint64_t)> run) {
         cases.push_back({"sums", name, mode, unit, limit, trials, std::move(run)});
     };
-    add("2^26 samples of one pixel", "all", "u", 1, 1 << 26, add_up);
-    add("one sample of 1e30 among 2^20", "all", "u", 1, 1 << 20, add_one_giant);
+    add("2^26 samples of one pixel", "all", "u", 1, 1, [](Errors& errors, std::uint64_t) { add_up(errors, 1 << 26); });
+    add("one sample of 1e30 among 2^20", "all", "u", 1, 1,
+        [](Errors& errors, std::uint64_t) { add_one_giant(errors, 1 << 20); });
     // A sample's radiance is summed in float: ten thousand terms that are no round numbers may add up half a rounding
     // each, 3e-4 in all.
     for (const Pipeline& how : pipelines()) {
         const double terms = how.precision == Precision::binary32 ? 5000 : 1;
         add("10 000 diffuse reflections, rho 1", how.mode, "u", 0, 1,
-            [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, how, diffuse(1), 1); });
+            [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, how, diffuse(dvec3{1}), 1); });
         add("10 000 diffuse reflections, rho 1, radiance 0.1", how.mode, "u", terms, 1,
-            [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, how, diffuse(1), 0.1); });
+            [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, how, diffuse(dvec3{1}), 0.1); });
         add("10 000 mirror reflections, rho 1", how.mode, "u", 0, 1,
             [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, how, mirror(1), 1); });
         add("10 000 lights for one", how.mode, "u", terms, 1,

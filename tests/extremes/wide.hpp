@@ -1,6 +1,6 @@
 // The oracle's numbers: IEEE quadruple precision, 113 bits, next to which the rounding of floats and doubles is exact
-// input. Wider in range than either, so that nothing the tests square overflows. Where millions of rays in float are
-// judged, the 64 bits of long double do: 2^-40 of a float's rounding.
+// input. Wider in range than either, so that nothing the tests square overflows. Where millions of rays are judged a
+// format next to theirs does: double for float, whose rounding is 2^-29 of a float's, long double for double.
 #pragma once
 
 #include <cmath>
@@ -52,6 +52,7 @@ bool finite(W x) {
     return x - x == 0;
 }
 
+inline double root(double x) { return std::sqrt(x); }
 inline long double root(long double x) { return std::sqrt(x); }
 #if defined(__SIZEOF_FLOAT128__)
 /// One step of Newton's from 64 bits gives the rest.

@@ -1,35 +1,23 @@
 // Input for the kernels: deterministic numbers, and items of queues as plain vectors.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <numbers>
-#include <random>
+#include <limits>
 
 #include "kernels/queues.hpp"
+#include "random_numbers.hpp"
 
 namespace orrery::kernel_tests {
 
-/// The same numbers on every machine: of the standard library only the engine is specified to the bit.
-class Numbers {
+class Numbers : public test::RandomNumbers {
 public:
-    explicit Numbers(std::uint64_t seed) : engine_(seed) {}
-    double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-    double between(double low, double high) { return low + (high - low) * uniform(); }
-    /// Uniform in the logarithm.
-    double scale(double low, double high) { return low * std::pow(high / low, uniform()); }
+    using RandomNumbers::RandomNumbers;
     std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(uniform() * n); }
-    glm::dvec3 direction() {
-        const double z = between(-1, 1), phi = between(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
-        return {r * std::cos(phi), r * std::sin(phi), z};
-    }
+    glm::dvec3 direction() { return on_sphere<glm::dvec3>(); }
     glm::dvec3 point(double reach) { return {between(-reach, reach), between(-reach, reach), between(-reach, reach)}; }
     glm::dvec3 colour() { return {uniform(), uniform(), uniform()}; }
-
-private:
-    std::mt19937_64 engine_;
 };
 
 inline float narrow(double x) { return static_cast<float>(x); }

@@ -8,24 +8,6 @@
 namespace orrery::test {
 namespace {
 
-/// All lengths times 2^k. Radiance does not care; a point light's intensity must grow with the square of the distance.
-Scene scaled(Scene scene, int k) {
-    const double s = std::ldexp(1.0, k);
-    scene.camera.position *= s;
-    scene.camera.target *= s;
-    scene.camera.focal_distance *= s;
-    scene.camera.aperture *= s;
-    for (Primitive& p : scene.primitives) {
-        p.centre *= s;
-        p.radius *= s;
-    }
-    for (PointLight& light : scene.point_lights) {
-        light.position *= s;
-        light.intensity *= s * s;
-    }
-    return scene;
-}
-
 struct Case {
     const char* name;
     Scene scene;

@@ -1,6 +1,7 @@
 // Scenes built in code, in the words the tests use.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -98,6 +99,24 @@ inline Scene crowd(Integrator integrator = Integrator::path_tracing) {
     scene.background = {0.1, 0.2, 0.3};
     scene.settings.integrator = integrator;
     scene.settings.samples = 4;
+    return scene;
+}
+
+/// All lengths times 2^k. Radiance does not care; a point light's intensity must grow with the square of the distance.
+inline Scene scaled(Scene scene, int k) {
+    const double s = std::ldexp(1.0, k);
+    scene.camera.position *= s;
+    scene.camera.target *= s;
+    scene.camera.focal_distance *= s;
+    scene.camera.aperture *= s;
+    for (Primitive& p : scene.primitives) {
+        p.centre *= s;
+        p.radius *= s;
+    }
+    for (PointLight& light : scene.point_lights) {
+        light.position *= s;
+        light.intensity *= s * s;
+    }
     return scene;
 }
 
