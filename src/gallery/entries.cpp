@@ -10,6 +10,7 @@ constexpr std::string_view showcase = "The showcase";
 constexpr std::string_view depth = "Distance images";
 constexpr std::string_view whitted = "Whitted ray tracing, two tone mappers";
 constexpr std::string_view paths = "Path tracing, two image estimators";
+constexpr std::string_view ground = "A ball of radius 1 on a ground of radius 10,000,000: where float ends";
 constexpr std::string_view transports = "Naive against next event estimation against both, at equal samples";
 
 constexpr auto entries = std::to_array<GalleryEntry>({
@@ -54,6 +55,13 @@ constexpr auto entries = std::to_array<GalleryEntry>({
      "assignment_06.json --size 240x240 --spp 64 --transport naive"},
     {transports, "Scene 6, nee", "transport_06_nee.png", "assignment_06.json --size 240x240 --spp 64 --transport nee"},
     {transports, "Scene 6, mis", "transport_06_mis.png", "assignment_06.json --size 240x240 --spp 64 --transport mis"},
+
+    {ground,
+     "float: shadows are clean, without acne or leaks, but numbers are 1 apart at the ground, which stands half a unit "
+     "too high; `render` warns of it",
+     "large_ground_float.png", "large_ground.json --size 360x240 --spp 256 --precision float"},
+    {ground, "double: the balls stand on it, and glass has its caustic", "large_ground_double.png",
+     "large_ground.json --size 360x240 --spp 256 --precision double"},
 });
 
 }  // namespace
