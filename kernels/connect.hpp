@@ -118,7 +118,7 @@ struct AreaSampler {
         const Sphere<F> sphere{
             {F(light.cx), F(light.cy), F(light.cz)}, F(light.radius), F(light.radius * light.radius)};
         const RandomKey key{context.seed, Dimension::light, context.light};
-        const auto random = random_for<V>(context.slots, rays, vertex.i, key, context.bounce, vertex.slot);
+        const auto random = random_for<V, 2>(context.slots, rays, vertex.i, key, context.bounce, vertex.slot);
         // On the light itself its side is known; elsewhere the power of the point tells, as in `chord`.
         const auto own = words_equal(vertex.sphere, U(light.sphere));
         const auto within = power_of_point(vertex.position - sphere.centre, sphere.radius2) < F(0);
@@ -191,6 +191,7 @@ template <class V, Response response, LightStrategy strategy>
 std::uint32_t connect_area(const ConnectContext<typename V::Real>& context, const AreaLight<typename V::Real>& light,
                            Range run, const RayQueue<typename V::Real>& rays, const LobeQueue<typename V::Real>& lobes,
                            const ShadowQueue<typename V::Real>& queue) {
+    draw<V, 2>(context.slots, rays, run, {context.seed, Dimension::light, context.light}, context.bounce);
     return connect_run<V>(context, run, rays, AreaSampler<V, response, strategy>{context, light, lobes}, queue);
 }
 

@@ -1,9 +1,8 @@
 // Stage `generate`: camera -> ray queue, one ray per slot.
 #pragma once
 
-#include "kernels/queues.hpp"
-#include "kernels/random.hpp"
 #include "kernels/sampling.hpp"
+#include "kernels/vertex.hpp"
 
 namespace orrery::kernels {
 
@@ -37,12 +36,16 @@ void generate(const CameraTable<typename V::Real>& camera, const SlotTable<typen
     using U = typename V::U;
     using Word = typename V::Word;
     const RandomKey key{seed, Dimension::camera, 0};
+    constexpr int dimensions = has_lens ? 4 : 2;
+    const bool points = slots.points.x != nullptr;
+    if (points) draw_points<V, dimensions>(slots, {slots.pixel, slots.sample, nullptr}, {0, count}, key, 0);
     const U lane = truncate_to_word(load<F>(detail::iota_table<typename V::Real>));
     const F zero(0), one(1);
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const U pixel = load<U>(slots.pixel + i);
         const U sample = load<U>(slots.sample + i);
-        const auto random = random_block<V>(key, pixel, sample, U(Word{0}));
+        const auto random =
+            points ? drawn<V, dimensions>(slots.points, i) : random_block<V>(key, pixel, sample, U(Word{0}));
         const F x = mul_add(random.x, F(camera.cell_width), load<F>(slots.plane_x + i));
         const F y = mul_add(random.y, F(camera.cell_height), load<F>(slots.plane_y + i));
         Vec3<F> o, d;

@@ -94,15 +94,29 @@ struct ShadowQueue {
     }
 };
 
+/// Numbers in [0, 1) drawn for the rays of a queue ahead of the stage that uses them, in the same order.
+template <class Real>
+struct PointQueue {
+    using Word = WordOf<Real>;
+    Real *x, *y, *z, *w;
+
+    template <class Visit>
+    ORRERY_INLINE static void each_field(Visit&& visit) {
+        visit("point_x", &PointQueue::x), visit("point_y", &PointQueue::y);
+        visit("point_z", &PointQueue::z), visit("point_w", &PointQueue::w);
+    }
+};
+
 /// The (pixel, sample) pairs of a wave, indexed by slot.
 template <class Real>
 struct SlotTable {
     using Word = WordOf<Real>;
     Word* pixel;              ///< y * width + x
-    Word* sample;             ///< sample number within the pixel
+    Word* sample;             ///< sample number within the pixel; where there are `points`, bits reversed
     Word* node;               ///< Whitted: node of the ray tree the slot's ray is, root 1, children 2n and 2n + 1
     Real *plane_x, *plane_y;  ///< corner of the sample's cell on the image plane at distance 1
     Real* radiance;           ///< gathered so far: r, g, b and one unused, four numbers per slot
+    PointQueue<Real> points;  ///< present where samples are points of Sobol's sequences
 
     template <class Visit>
     ORRERY_INLINE static void each_field(Visit&& visit) {

@@ -1,4 +1,4 @@
-// Randomness as a pure function of (seed, pixel, sample, vertex, dimension).
+// Randomness as a pure function of (seed, pixel, sample, vertex, dimension), independent or low-discrepancy.
 //
 // Nothing of queue position, thread or tile enters, so compaction, sorting, wave size and thread count cannot change an
 // image. The function is pcg4d of Jarzynski and Olano, "Hash Functions for GPU Rendering" (JCGT 9(3), 2020): a
@@ -6,7 +6,7 @@
 // 32-bit multiplications. Philox4x32-10 needs forty 32 x 32 -> 64 ones, which no vector unit has whole.
 #pragma once
 
-#include "kernels/lanes.hpp"
+#include "kernels/sobol.hpp"
 
 namespace orrery::kernels {
 
@@ -59,15 +59,35 @@ struct RandomNumbers {
     F x, y, z, w;
 };
 
-/// `vertex` is the bounce number of a path, or the node of a Whitted ray tree.
+namespace detail {
+/// The golden-ratio step keeps the keys of small seeds and small dimensions apart.
+ORRERY_INLINE std::uint32_t word_of(const RandomKey& key) {
+    return key.seed + (static_cast<std::uint32_t>(key.dimension) + key.index) * 0x9E3779B9u;
+}
+}  // namespace detail
+
+/// Independent numbers. `vertex` is the bounce number of a path, or the node of a Whitted ray tree.
 template <class V>
 ORRERY_INLINE RandomNumbers<typename V::F> random_block(const RandomKey& key, const typename V::U& pixel,
                                                         const typename V::U& sample, const typename V::U& vertex) {
     using U = typename V::U;
-    // The golden-ratio step keeps the keys of small seeds and small dimensions apart.
-    const std::uint32_t block = static_cast<std::uint32_t>(key.dimension) + key.index;
-    const auto r = pcg4d<U>(pixel, sample, vertex, U(key.seed + block * 0x9E3779B9u));
+    const auto r = pcg4d<U>(pixel, sample, vertex, U(detail::word_of(key)));
     return {unit_interval(r.x), unit_interval(r.y), unit_interval(r.z), unit_interval(r.w)};
+}
+
+/// Points of Sobol's sequences: x and y are one, z and w another. `sample` has its bits reversed.
+template <class V>
+ORRERY_INLINE RandomNumbers<typename V::F> sobol_block(const RandomKey& key, const typename V::U& pixel,
+                                                       const typename V::U& sample, const typename V::U& vertex) {
+    using U = typename V::U;
+    const U word(detail::word_of(key));
+    const U place = sample << 1;
+    const U sequence = low_half(sample) >> 31;
+    const auto seeds = pcg4d<U>(pixel, sequence, vertex, word);
+    const auto more = pcg4d<U>(pixel, sequence | U(2u), vertex, word);
+    const auto first = sobol_pair<U>(place, seeds.x, seeds.y, seeds.z);
+    const auto second = sobol_pair<U>(place, more.x, more.y, more.z);
+    return {unit_interval(first.x), unit_interval(first.y), unit_interval(second.x), unit_interval(second.y)};
 }
 
 }  // namespace orrery::kernels

@@ -17,6 +17,7 @@ std::uint32_t roulette(const SlotTable<typename V::Real>& slots, std::uint32_t s
     const RandomKey key{seed, Dimension::roulette, 0};
     std::uint32_t size = 0;
     for (const Range& run : runs.run) {
+        if (play) draw<V, 1>(slots, rays, run, key, bounce);
         for (std::uint32_t n = 0; n < run.count; n += V::count) {
             const std::uint32_t i = run.begin + n;
             const auto in_run = first_lanes<V>(run.count - n);
@@ -30,7 +31,7 @@ std::uint32_t roulette(const SlotTable<typename V::Real>& slots, std::uint32_t s
                 const F scale = rays.eta_scale != nullptr ? load<F>(rays.eta_scale + i) : F(1);
                 const F q = min(carried / scale, F(1));
                 const U slot = choose(in_run, load<U>(rays.slot + i), U(0u));
-                const F u = random_for<V>(slots, rays, i, key, bounce, slot).x;
+                const F u = random_for<V, 1>(slots, rays, i, key, bounce, slot).x;
                 alive = alive && (u < q || !(sum == sum));
                 save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, throughput * (F(1) / q));
             }

@@ -43,6 +43,8 @@ ORRERY_INLINE Vec3<typename V::F> reflectance_of(const MaterialTable<typename V:
 constexpr bool is_interface(Scattering kind) {
     return kind == Scattering::dielectric || kind == Scattering::translucent;
 }
+/// How many random numbers a way of scattering takes.
+constexpr int dimensions_of(Scattering kind) { return kind == Scattering::specular ? 0 : is_interface(kind) ? 3 : 2; }
 constexpr bool is_rough(Scattering kind) { return kind == Scattering::glossy || kind == Scattering::translucent; }
 
 /// Throughput factor, radiance scaling by eta included.
@@ -75,8 +77,8 @@ ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<typename V::Real>& co
         out.pdf = infinity;
         return out;
     }
-    const auto random =
-        random_for<V>(context.slots, rays, i, {context.seed, Dimension::scattering, 0}, context.bounce, slot);
+    const auto random = random_for<V, dimensions_of(kind)>(
+        context.slots, rays, i, {context.seed, Dimension::scattering, 0}, context.bounce, slot);
     if constexpr (kind == Scattering::diffuse) {
         const auto sample = sample_cosine<V>(vertex.normal, random.x, random.y);
         out.direction = sample.direction;
@@ -119,6 +121,9 @@ void scatter(const ScatterContext<typename V::Real>& context, Range run, const R
              const HitQueue<typename V::Real>& hits, const LobeQueue<typename V::Real>& lobes) {
     using F = typename V::F;
     const Vec3<F> none{F(0), F(0), F(0)};
+    if constexpr (dimensions_of(kind) > 0)
+        draw<V, dimensions_of(kind)>(context.slots, rays, run, {context.seed, Dimension::scattering, 0},
+                                     context.bounce);
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
         const auto in = arriving<V>(context.spheres, rays, hits, i, run.count - n);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "kernels/compress.hpp"
+#include "kernels/reversed_bits.hpp"
 
 namespace orrery::kernels {
 
@@ -172,6 +173,10 @@ ORRERY_INLINE Twin<B> magnitude(const Twin<B>& a) {
 template <class U>
 ORRERY_INLINE Twin<U> multiply_words(const Twin<U>& a, const Twin<U>& b) {
     return {multiply_words(a.low, b.low), multiply_words(a.high, b.high)};
+}
+template <class U>
+ORRERY_INLINE Twin<U> reversed_bits(const Twin<U>& a) {
+    return {reversed_bits(a.low), reversed_bits(a.high)};
 }
 template <class U>
 ORRERY_INLINE auto unit_interval(const Twin<U>& a) {

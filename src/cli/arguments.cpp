@@ -98,8 +98,8 @@ void add_method(CLI::App& app, Overrides& overrides) {
                "How often light may be scattered between lamp and eye; at most 20 for wrt (default: the scene's)",
                overrides.depth, 0, any);
     add_choice(app, "--estimator", estimator_words,
-               "Where in a pixel the samples lie: anywhere, or one in each cell of a grid (default: the scene's, else "
-               "stratified)",
+               "How a pixel's samples are spread: anyhow, one in each cell of a grid, or evenly in all they decide "
+               "(default: the scene's, else stratified)",
                overrides.estimator);
     add_choice(app, "--transport", transport_words,
                "How paths find area lights: by chance, by aiming at them, or by both, weighted (default: the scene's, "

@@ -28,7 +28,8 @@ std::string samples_text(const Plan& plan, const Goal& goal) {
         return text + (goal.adaptive ? ", adaptive" : ", the same for all pixels");
     }
     const RenderSettings& settings = plan.settings();
-    if (settings.estimator == Estimator::uniform) return fmt::format("{} per pixel, uniform", plan.samples());
+    if (settings.estimator != Estimator::stratified)
+        return fmt::format("{} per pixel, {}", plan.samples(), word_for(estimator_words, settings.estimator));
     std::string text = fmt::format("{} per pixel, stratified {} x {}", plan.samples(), plan.strata(), plan.strata());
     if (plan.samples() != settings.samples) text += fmt::format(" ({} asked)", settings.samples);
     return text;

@@ -25,8 +25,8 @@ using Words = std::array<Word<Value>, count>;
 
 inline constexpr Words<Integrator, 3> integrator_words = {
     {{"pt", Integrator::path_tracing}, {"wrt", Integrator::whitted}, {"depth", Integrator::depth}}};
-inline constexpr Words<Estimator, 2> estimator_words = {
-    {{"uniform", Estimator::uniform}, {"stratified", Estimator::stratified}}};
+inline constexpr Words<Estimator, 3> estimator_words = {
+    {{"uniform", Estimator::uniform}, {"stratified", Estimator::stratified}, {"sobol", Estimator::sobol}}};
 inline constexpr Words<Transport, 3> transport_words = {
     {{"naive", Transport::naive}, {"nee", Transport::nee}, {"mis", Transport::mis}}};
 inline constexpr Words<LightSampling, 2> light_sampling_words = {

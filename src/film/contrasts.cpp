@@ -6,38 +6,42 @@
 namespace orrery {
 namespace {
 
-/// Squares of contrasts as they are summed, one after the other: a sum does not depend on how a pixel's samples were
-/// cut into portions. Four lanes, of which the last stands for the unused number beside r, g and b.
-struct Squares {
+/// Contrasts as they are summed, one after the other: a sum does not depend on how a pixel's samples were cut into
+/// portions. Four lanes, of which the last stands for the unused number beside r, g and b.
+struct Sums {
     double lane[4];
     std::uint64_t contrasts;
 };
 
-/// What `value` makes of four channels, channel by channel. In the samples' own type: its rounding is theirs, and equal
-/// ones still leave exactly zero. Unless `checked`, one that is not finite spoils the sum.
-template <class Real, bool checked, class Value>
-inline void add_square(Squares& sum, Value value) {
+/// What `value` makes of four channels, channel by channel, squared or as part of one contrast. In the samples' own
+/// type: its rounding is theirs, and equal ones still leave exactly zero. Unless `checked`, one that is not finite
+/// spoils the sum.
+template <class Real, bool checked, Contrasting contrasting = Contrasting::many, class Value>
+inline void add_contrast(Sums& sum, Value value) {
     Real contrast[4];
     for (std::uint32_t c = 0; c < 4; ++c) contrast[c] = value(c);
     if (checked && !std::isfinite(contrast[0] + contrast[1] + contrast[2])) return;
-    for (std::uint32_t c = 0; c < 4; ++c) sum.lane[c] += double{contrast[c]} * double{contrast[c]};
+    for (std::uint32_t c = 0; c < 4; ++c) {
+        const double d = contrast[c];
+        sum.lane[c] += contrasting == Contrasting::one ? d : d * d;
+    }
     ++sum.contrasts;
 }
 
 /// a - b of two visits to a row, cell by cell.
-template <bool checked, class Real>
-inline void add_differences(Squares& sum, const Real* row, const Real* again, std::uint32_t columns) {
+template <bool checked, Contrasting contrasting, class Real>
+inline void add_differences(Sums& sum, const Real* row, const Real* again, std::uint32_t columns) {
     for (std::uint32_t i = 0; i < 4 * columns; i += 4)
-        add_square<Real, checked>(sum, [&](std::uint32_t c) { return row[i + c] - again[i + c]; });
+        add_contrast<Real, checked, contrasting>(sum, [&](std::uint32_t c) { return row[i + c] - again[i + c]; });
 }
 
 /// a - b - c + d of blocks side by side; in rows of odd length the last overlaps the one before.
 template <bool checked, class Real>
-inline void add_blocks(Squares& sum, const Real* row, const Real* next, std::uint32_t columns) {
+inline void add_blocks(Sums& sum, const Real* row, const Real* next, std::uint32_t columns) {
     const auto add = [&](std::uint32_t x) {
         const Real* const upper = row + 4 * x;
         const Real* const lower = next + 4 * x;
-        add_square<Real, checked>(
+        add_contrast<Real, checked>(
             sum, [&](std::uint32_t c) { return (upper[c] - upper[c + 4]) - (lower[c] - lower[c + 4]); });
     };
     for (std::uint32_t x = 0; x + 2 <= columns; x += 2) add(x);
@@ -46,11 +50,15 @@ inline void add_blocks(Squares& sum, const Real* row, const Real* next, std::uin
 
 /// A run of groups: pairs of visits, or two or three rows of cells.
 template <bool checked, class Real>
-void add_run(Squares& sum, const Real* rgbx, std::uint32_t rows, std::uint32_t columns, bool twice) {
+void add_run(Sums& sum, Contrasting contrasting, const Real* rgbx, std::uint32_t rows, std::uint32_t columns,
+             bool twice) {
     const std::size_t stride = std::size_t{4} * columns;
-    if (twice) {
+    if (twice && contrasting == Contrasting::one) {
         for (std::uint32_t row = 0; row < rows; row += 2, rgbx += 2 * stride)
-            add_differences<checked>(sum, rgbx, rgbx + stride, columns);
+            add_differences<checked, Contrasting::one>(sum, rgbx, rgbx + stride, columns);
+    } else if (twice) {
+        for (std::uint32_t row = 0; row < rows; row += 2, rgbx += 2 * stride)
+            add_differences<checked, Contrasting::many>(sum, rgbx, rgbx + stride, columns);
     } else {
         for (std::uint32_t row = 0; row + 1 < rows; row += 2, rgbx += 2 * stride)
             add_blocks<checked>(sum, rgbx, rgbx + stride, columns);
@@ -85,11 +93,11 @@ void Contrasts<Real>::add(Film& film, std::size_t pixel, const Real* rgbx, std::
         if (taken == group) {
             // All pairs of visits at once; of rows visited once the last group is another.
             if (twice_) taken = count - count % group;
-            add_rows(spread, rgbx, taken / columns_);
+            add_rows(spread, film.contrasting(), rgbx, taken / columns_);
         } else {
             begun_.insert(begun_.end(), rgbx, rgbx + std::size_t{4} * taken);
             if (begun + taken == group) {
-                add_rows(spread, begun_.data(), group / columns_);
+                add_rows(spread, film.contrasting(), begun_.data(), group / columns_);
                 begun_.clear();
             }
         }
@@ -107,15 +115,15 @@ std::uint32_t Contrasts<Real>::group_size() const {
 }
 
 template <class Real>
-void Contrasts<Real>::add_rows(Spread& spread, const Real* rgbx, std::uint32_t rows) {
-    const Squares before{{spread.squares.r, spread.squares.g, spread.squares.b, 0}, spread.contrasts};
-    Squares sum = before;
-    add_run<false>(sum, rgbx, rows, columns_, twice_);
+void Contrasts<Real>::add_rows(Spread& spread, Contrasting contrasting, const Real* rgbx, std::uint32_t rows) {
+    const Sums before{{spread.sums.r, spread.sums.g, spread.sums.b, 0}, spread.contrasts};
+    Sums sum = before;
+    add_run<false>(sum, contrasting, rgbx, rows, columns_, twice_);
     if (!std::isfinite(sum.lane[0] + sum.lane[1] + sum.lane[2])) {
         sum = before;
-        add_run<true>(sum, rgbx, rows, columns_, twice_);
+        add_run<true>(sum, contrasting, rgbx, rows, columns_, twice_);
     }
-    spread.squares = {sum.lane[0], sum.lane[1], sum.lane[2]};
+    spread.sums = {sum.lane[0], sum.lane[1], sum.lane[2]};
     spread.members += (sum.contrasts - spread.contrasts) * (twice_ ? 2 : 4);
     spread.contrasts = sum.contrasts;
     rows_done_ += rows;

@@ -18,6 +18,10 @@
 //     neighbours in a row, collapsed in pairs   0.74  0.75
 //     scatter of all samples, unstratified      0.27  0.07
 //   With noise as the larger part (scene 8) all four are within 2 % for the relative error.
+// * Two sequences scrambled apart, sample by sample in turns, the Sobol' estimator: only their two sums are
+// independent,
+//   so that all samples of a pixel form a single contrast. It has no bias, and one degree of freedom: of a pixel it
+//   tells little, of an image as much as its pixels are many.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +36,8 @@ template <class Real = float>
 class Contrasts {
 public:
     /// Samples come row by row of a grid of `columns` x `columns` cells, one in each cell of a row; with `twice` every
-    /// row comes a second time before the next. One column visited once has no contrasts.
+    /// row comes a second time before the next. One column visited once has no contrasts. To a film of one contrast
+    /// per pixel samples come as one column, `twice`: of the two sequences in turns.
     void begin(std::uint32_t columns, bool twice);
 
     /// Adds the next samples of a pixel to the film's spread: r, g, b and one unused number each. A pixel's samples may
@@ -41,7 +46,7 @@ public:
 
 private:
     std::uint32_t group_size() const;
-    void add_rows(Spread& spread, const Real* rgbx, std::uint32_t rows);
+    void add_rows(Spread& spread, Contrasting contrasting, const Real* rgbx, std::uint32_t rows);
 
     std::uint32_t columns_ = 1;
     bool twice_ = true;

@@ -25,11 +25,15 @@ PixelEstimate Film::estimate(std::size_t pixel) const {
     const auto n = static_cast<double>(sum.samples);
     const Rgb64 mean{sum.r / n, sum.g / n, sum.b / n};
     if (spread.members == 0) return {mean, {unknown, unknown, unknown}, 0};
+    const Rgb64& s = spread.sums;
+    const bool one = contrasting_ == Contrasting::one;
+    const Rgb64 squares = one ? Rgb64{s.r * s.r, s.g * s.g, s.b * s.b} : s;
     // The members' sum has the variance `squares`; the sum of all samples has as much more as they are more, and the
     // mean n^2 times less.
     const double scale = 1 / (static_cast<double>(spread.members) * n);
-    const Rgb64& squares = spread.squares;
-    return {mean, {squares.r * scale, squares.g * scale, squares.b * scale}, static_cast<double>(spread.contrasts)};
+    return {mean,
+            {squares.r * scale, squares.g * scale, squares.b * scale},
+            one ? 1 : static_cast<double>(spread.contrasts)};
 }
 
 }  // namespace orrery

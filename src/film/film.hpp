@@ -31,10 +31,14 @@ struct Rgb64 {
     double r = 0, g = 0, b = 0;
 };
 
+/// What a film keeps of the contrasts of a pixel's samples: many are squared one by one and summed; one that all
+/// samples form together grows with each, and is squared in the end.
+enum class Contrasting : std::uint8_t { many, one };
+
 /// What the samples of a pixel tell about the error of their sum (contrasts.hpp says how).
 struct Spread {
-    Rgb64 squares;              ///< sums of squared contrasts
-    std::uint64_t members = 0;  ///< samples in those contrasts: their sum has the variance `squares`
+    Rgb64 sums;                 ///< of squared contrasts, or the one contrast itself
+    std::uint64_t members = 0;  ///< samples in those contrasts: the variance of their sum is that of the contrasts
     std::uint64_t contrasts = 0;
 };
 
@@ -49,12 +53,17 @@ struct PixelEstimate {
 /// Not thread safe per pixel; distinct pixels may be written by distinct threads without a lock.
 class Film {
 public:
-    Film(std::uint32_t width, std::uint32_t height)
-        : width_(width), height_(height), pixels_(std::size_t{width} * height), spreads_(std::size_t{width} * height) {}
+    Film(std::uint32_t width, std::uint32_t height, Contrasting contrasting = Contrasting::many)
+        : width_(width),
+          height_(height),
+          contrasting_(contrasting),
+          pixels_(std::size_t{width} * height),
+          spreads_(std::size_t{width} * height) {}
 
     std::uint32_t width() const { return width_; }
     std::uint32_t height() const { return height_; }
     std::size_t pixels() const { return pixels_.size(); }
+    Contrasting contrasting() const { return contrasting_; }
 
     /// Adds one sample to a pixel (index = y * width + x). A sample that is not finite, or that no float holds, never
     /// gets in. Returns false when it was dropped.
@@ -114,6 +123,7 @@ private:
     }
 
     std::uint32_t width_, height_;
+    Contrasting contrasting_;
     std::vector<Pixel> pixels_;
     std::vector<Spread> spreads_;  ///< apart: what a render sums most often stays dense
 };

@@ -34,6 +34,8 @@ std::vector<Decision> Plan::decisions() const {
                   : fmt::format("{} spheres: one loop is faster below {}", scene_.primitives.size(), tree_crossover));
     decide("generate: lens", n.lens,
            n.lens ? fmt::format("aperture {}", scene_.camera.aperture) : "the camera is a pinhole");
+    decide("random numbers: points", n.points,
+           n.points ? "two Sobol' sequences for every decision of a pixel" : "samples are independent of each other");
     if (n.integrator == Integrator::depth) {
         decide("shade, shadow, roulette", false, "DEPTH stops after intersect");
         return list;

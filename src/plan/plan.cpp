@@ -89,6 +89,7 @@ void Plan::plan_needs() {
     const std::uint32_t dielectric = needs_.scattering & (bit(Scattering::dielectric) | bit(Scattering::translucent));
     needs_.integrator = s.integrator;
     needs_.lens = scene_.camera.aperture > 0;
+    needs_.points = s.estimator == Estimator::sobol;
     if (s.integrator == Integrator::depth) {
         needs_.scattering = 0;
         return;

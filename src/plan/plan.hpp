@@ -16,6 +16,7 @@ struct Needs {
     Integrator integrator = Integrator::path_tracing;
     bool tree = false;                ///< many spheres: rays go through a tree
     bool lens = false;                ///< sample the aperture
+    bool points = false;              ///< samples are points of Sobol's sequences, drawn ahead of the stages
     std::uint32_t scattering = 0;     ///< bit k: some surface scatters as kernels::Scattering k
     bool sort = false;                ///< more than one kind: hits are sorted by it
     bool emitters = false;            ///< rays can run into an emitter

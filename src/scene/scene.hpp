@@ -53,7 +53,7 @@ struct PointLight {
 };
 
 enum class Integrator : std::uint8_t { path_tracing, whitted, depth };
-enum class Estimator : std::uint8_t { uniform, stratified };
+enum class Estimator : std::uint8_t { uniform, stratified, sobol };
 enum class Transport : std::uint8_t { naive, nee, mis };
 enum class LightSampling : std::uint8_t { area, cone };
 /// The kernels' number type (IEEE 754); automatic: float where it is good enough for the scene.

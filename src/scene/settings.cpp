@@ -59,7 +59,8 @@ RenderSettings read_settings(const Node& renderer, const std::filesystem::path& 
 
     if (fields.has("estimator")) {
         const auto estimator = fields.choice<Estimator>(
-            "estimator", {{"uniform", Estimator::uniform}, {"stratified", Estimator::stratified}});
+            "estimator",
+            {{"uniform", Estimator::uniform}, {"stratified", Estimator::stratified}, {"sobol", Estimator::sobol}});
         settings.estimator = estimator.value_or(settings.estimator);
     }
     if (fields.has("transport")) {

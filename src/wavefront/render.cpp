@@ -60,7 +60,8 @@ void render_in_passes(const Plan& plan, const RenderOptions& options, const Film
 
 template <class Real>
 RenderResult render_in(const Plan& plan, const RenderOptions& options) {
-    Film film(plan.settings().width, plan.settings().height);
+    Film film(plan.settings().width, plan.settings().height,
+              plan.settings().estimator == Estimator::sobol ? Contrasting::one : Contrasting::many);
     Workers<Real> workers(plan, options, film);
     Progress progress(options);
     RenderResult result;

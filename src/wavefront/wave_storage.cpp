@@ -57,6 +57,7 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
     carver.field(slots.plane_x, padded);
     carver.field(slots.plane_y, padded);
     carver.field(slots.radiance, std::size_t{4} * padded);
+    if (needs.points) carver.queue(slots.points, capacity);
     ray_fields(rays, capacity);
     carver.queue(hits, capacity);
     if (needs.sort) {

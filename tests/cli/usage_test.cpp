@@ -43,7 +43,7 @@ TEST(Usage, RenderHelpNamesEveryOptionItsDefaultAndAnExample) {
                                "--size WxH",
                                "--seed N",
                                "--threads N",
-                               "--estimator uniform|stratified",
+                               "--estimator uniform|stratified|sobol",
                                "--transport naive|nee|mis",
                                "--light-sampling area|cone",
                                "--roulette on|off",
@@ -128,7 +128,7 @@ TEST(Usage, StopsAreSharesAndTimes) {
 
 TEST(Usage, ChoicesNameWhatThereIs) {
     EXPECT_THAT(refusal_with({"--integrator", "PT"}), HasSubstr("pt|wrt|depth"));
-    EXPECT_THAT(refusal_with({"--estimator", "sobol"}), HasSubstr("uniform|stratified"));
+    EXPECT_THAT(refusal_with({"--estimator", "halton"}), HasSubstr("uniform|stratified|sobol"));
     EXPECT_THAT(refusal_with({"--transport", "bdpt"}), HasSubstr("naive|nee|mis"));
     EXPECT_THAT(refusal_with({"--light-sampling", "uniform"}), HasSubstr("area|cone"));
     EXPECT_THAT(refusal_with({"--roulette", "yes"}), HasSubstr("on|off"));

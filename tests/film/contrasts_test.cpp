@@ -22,13 +22,14 @@ struct Expectation {
     double estimated = 0;
 };
 
-Expectation over_all_outcomes(const std::vector<Cell>& samples, std::uint32_t columns, bool twice) {
+Expectation over_all_outcomes(const std::vector<Cell>& samples, std::uint32_t columns, bool twice,
+                              Contrasting contrasting = Contrasting::many) {
     Expectation result;
     for (const Cell& cell : samples) result.variance += cell.variance();
     const std::size_t outcomes = std::size_t{1} << samples.size();
     std::vector<float> rgbx(4 * samples.size());
     for (std::size_t outcome = 0; outcome < outcomes; ++outcome) {
-        Film film(1, 1);
+        Film film(1, 1, contrasting);
         for (std::size_t s = 0; s < samples.size(); ++s) {
             const float value = (outcome >> s & 1) != 0 ? samples[s].high : samples[s].low;
             rgbx[4 * s] = value;
@@ -62,6 +63,36 @@ TEST(Contrasts, OfUniformSamplesAreExact) {
         const Expectation e = over_all_outcomes(std::vector<Cell>(count, Cell{1, 4}), 1, true);
         EXPECT_NEAR(e.estimated, e.variance, 1e-12 * e.variance) << count;
     }
+}
+
+TEST(Contrasts, OfTwoSequencesInTurnsAreExact) {
+    for (const std::size_t count : {2u, 4u, 6u, 7u}) {  // of an odd number the last one has no partner
+        const Expectation e = over_all_outcomes(std::vector<Cell>(count, Cell{1, 4}), 1, true, Contrasting::one);
+        EXPECT_NEAR(e.estimated, e.variance, 1e-12 * e.variance) << count;
+    }
+}
+
+// Samples of one sequence depend on each other, here as much as they can: all of them are low, or all high.
+TEST(Contrasts, OfTwoSequencesKnowWhatTheirSamplesShare) {
+    double estimated[2] = {0, 0};
+    constexpr std::uint32_t each = 4;
+    for (const unsigned outcome : {0u, 1u, 2u, 3u}) {
+        std::vector<float> rgbx(std::size_t{4} * 2 * each);
+        for (std::size_t s = 0; s < 2 * each; ++s) rgbx[4 * s] = (outcome >> s % 2 & 1u) != 0 ? 3.0f : 1.0f;
+        for (const Contrasting contrasting : {Contrasting::many, Contrasting::one}) {
+            Film film(1, 1, contrasting);
+            Contrasts contrasts;
+            contrasts.begin(1, true);
+            film.add(0, rgbx.data(), 2 * each);
+            contrasts.add(film, 0, rgbx.data(), 2 * each);
+            const PixelEstimate pixel = film.estimate(0);
+            estimated[contrasting == Contrasting::one ? 1 : 0] += pixel.variance.r / 4;
+            EXPECT_EQ(pixel.degrees, contrasting == Contrasting::one ? 1 : each);
+        }
+    }
+    // The mean of two numbers that are 1 or 3: variance 1 / 2.
+    EXPECT_DOUBLE_EQ(estimated[1], 0.5);
+    EXPECT_LT(estimated[0], 0.2) << "taken for independent";
 }
 
 /// f(x) + g(y) and noise that is the same in all cells.
@@ -100,20 +131,23 @@ struct Grid {
     std::uint32_t columns;
     bool twice;
     std::uint32_t samples;
+    Contrasting contrasting = Contrasting::many;
 };
 
 TEST(Contrasts, AreTheSameHoweverTheSamplesArePortioned) {
-    for (const auto& [columns, twice, samples] : {Grid{1, true, 9},
-                                                  {1, true, 40},
-                                                  {2, false, 4},
-                                                  {3, false, 9},
-                                                  {6, false, 36},
-                                                  {7, false, 49},
-                                                  {4, true, 32}}) {
+    for (const auto& [columns, twice, samples, contrasting] : {Grid{1, true, 9},
+                                                               {1, true, 40},
+                                                               {2, false, 4},
+                                                               {3, false, 9},
+                                                               {6, false, 36},
+                                                               {7, false, 49},
+                                                               {4, true, 32},
+                                                               {1, true, 40, Contrasting::one},
+                                                               {1, true, 9, Contrasting::one}}) {
         const std::vector<float> rgbx = noise(samples);
         Spread whole;
         for (std::uint32_t portion = samples; portion > 0; --portion) {
-            Film film(2, 1);
+            Film film(2, 1, contrasting);
             Contrasts contrasts;
             contrasts.begin(columns, twice);
             for (const std::size_t pixel : {0u, 1u})
@@ -121,9 +155,8 @@ TEST(Contrasts, AreTheSameHoweverTheSamplesArePortioned) {
                     contrasts.add(film, pixel, rgbx.data() + 4 * s, std::min(portion, samples - s));
             if (portion == samples) whole = film.spread(0);
             for (const std::size_t pixel : {0u, 1u}) {
-                EXPECT_EQ(film.spread(pixel).squares.r, whole.squares.r)
-                    << columns << " columns, portions of " << portion;
-                EXPECT_EQ(film.spread(pixel).squares.b, whole.squares.b);
+                EXPECT_EQ(film.spread(pixel).sums.r, whole.sums.r) << columns << " columns, portions of " << portion;
+                EXPECT_EQ(film.spread(pixel).sums.b, whole.sums.b);
                 EXPECT_EQ(film.spread(pixel).members, whole.members);
                 EXPECT_EQ(film.spread(pixel).contrasts, whole.contrasts);
             }
@@ -158,9 +191,9 @@ TEST(Contrasts, LeaveOutWhatIsNotFinite) {
         const Spread spread = spread_of();
         EXPECT_EQ(spread.contrasts, clean.contrasts - 1);
         EXPECT_EQ(spread.members, clean.members - (twice ? 2 : 4));
-        EXPECT_LT(spread.squares.r, clean.squares.r);
-        EXPECT_GT(spread.squares.r, 0);
-        EXPECT_TRUE(std::isfinite(spread.squares.g));
+        EXPECT_LT(spread.sums.r, clean.sums.r);
+        EXPECT_GT(spread.sums.r, 0);
+        EXPECT_TRUE(std::isfinite(spread.sums.g));
     }
 }
 

@@ -33,7 +33,8 @@ std::vector<Variant> path_variants(const Scene& scene) {
     const auto stratified = Estimator::stratified, uniform = Estimator::uniform;
     std::vector<Variant> variants = {{"mis, cone", with(mis, cone, true, stratified)},
                                      {"no roulette", with(mis, cone, false, stratified)},
-                                     {"uniform", with(mis, cone, true, uniform)}};
+                                     {"uniform", with(mis, cone, true, uniform)},
+                                     {"sobol", with(mis, cone, true, Estimator::sobol)}};
     if (isa_supported(Isa::sse2)) variants.push_back({"SSE2", with(mis, cone, true, stratified), Isa::sse2});
     if (has_area_lights(scene)) {
         variants.push_back({"mis, area", with(mis, area, true, uniform)});
@@ -54,6 +55,7 @@ std::vector<Variant> other_variants(const Scene& scene) {
     std::vector<Variant> variants = {
         {"cone, stratified", with(LightSampling::cone, Estimator::stratified)},
         {"cone, uniform", with(LightSampling::cone, Estimator::uniform)},
+        {"cone, sobol", with(LightSampling::cone, Estimator::sobol)},
     };
     if (isa_supported(Isa::sse2))
         variants.push_back({"SSE2", with(LightSampling::cone, Estimator::stratified), Isa::sse2});

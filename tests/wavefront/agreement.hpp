@@ -17,7 +17,7 @@ struct Variant {
     Isa isa = best_isa();
 };
 
-/// Every transport with either way to sample lights, with and without roulette, both estimators, and the one
+/// Every transport with either way to sample lights, with and without roulette, all estimators, and the one
 /// instruction set that rounds differently. Settings that do nothing in `scene` (light sampling without area lights)
 /// are left out.
 std::vector<Variant> path_variants(const Scene& scene);

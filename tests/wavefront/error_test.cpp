@@ -52,6 +52,7 @@ class Coverage : public testing::TestWithParam<int> {};
 TEST_P(Coverage, OfTheInterval) {
     const Case cases[] = {{"uniform", noisy(Estimator::uniform), 0.88, 1},
                           {"stratified", noisy(Estimator::stratified), 0.88, 1},
+                          {"sobol", noisy(Estimator::sobol), 0.88, 1},
                           {"edges", whitted(), 0.75, 1},
                           {"distances", distances(), 0.85, 1}};
     const Case& c = cases[GetParam()];
@@ -95,10 +96,10 @@ TEST_P(Coverage, OfTheInterval) {
     EXPECT_NEAR(std::sqrt(made_squares / stated_squares), 1, 0.15) << c.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Coverage, testing::Range(0, 4));
+INSTANTIATE_TEST_SUITE_P(Scenes, Coverage, testing::Range(0, 5));
 
 TEST(StandardError, IsTheSameForAnyWaveSizeAndNumberOfThreads) {
-    for (const Estimator estimator : {Estimator::uniform, Estimator::stratified}) {
+    for (const Estimator estimator : {Estimator::uniform, Estimator::stratified, Estimator::sobol}) {
         Scene scene = noisy(estimator);
         scene.settings.samples = 25;
         const auto result_of = [&](unsigned threads, std::uint32_t wave) {

@@ -1,4 +1,4 @@
-// The two image estimators: where in its pixel a sample falls.
+// The three image estimators: where in its pixel a sample falls.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,8 +24,10 @@ class Strata : public testing::TestWithParam<std::uint32_t> {};
 TEST_P(Strata, CoverThePixel) {
     const Budget budget{.samples = GetParam(), .seeds = 64, .reference_samples = 6000, .block_size = 1};
     const auto in = [](Estimator estimator) { return [=](RenderSettings& s) { s.estimator = estimator; }; };
-    expect_agreement_of({{"uniform", in(Estimator::uniform)}, {"stratified", in(Estimator::stratified)}}, wall(),
-                        budget);
+    expect_agreement_of({{"uniform", in(Estimator::uniform)},
+                         {"stratified", in(Estimator::stratified)},
+                         {"sobol", in(Estimator::sobol)}},
+                        wall(), budget);
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, Strata, testing::Values(1u, 4u, 6u, 9u, 30u));
@@ -39,14 +41,32 @@ Scene edges() {
     return scene;
 }
 
+double noise(const Scene& scene, Estimator estimator) {
+    const auto blocks = blocks_of(scene, {"", [=](RenderSettings& s) { s.estimator = estimator; }},
+                                  {.samples = 64, .seeds = 16, .block_size = 16});
+    return blocks.blocks[0][0].standard_error();
+}
+
 // The point of stratification.
 TEST(Stratified, IsLessNoisyThanUniform) {
-    const auto noise = [](Estimator estimator) {
-        const auto blocks = blocks_of(edges(), {"", [=](RenderSettings& s) { s.estimator = estimator; }},
-                                      {.samples = 64, .seeds = 16, .block_size = 16});
-        return blocks.blocks[0][0].standard_error();
-    };
-    EXPECT_LT(noise(Estimator::stratified), 0.5 * noise(Estimator::uniform));
+    EXPECT_LT(noise(edges(), Estimator::stratified), 0.5 * noise(edges(), Estimator::uniform));
+}
+
+/// A wall lit by a large lamp above it, seen close enough that the picture's plane hardly matters.
+Scene soft_light() {
+    Scene scene = picture({0, 0, -1.2}, {0, 0, 0}, 20, 1);
+    add_sphere(scene, {0, 0, 1000}, 1000, diffuse(dvec3{0.7}));
+    add_lamp(scene, {0, 2, -2}, 1.2, {3, 3, 3});
+    scene.settings.transport = Transport::nee;
+    return scene;
+}
+
+// The point of a sequence for every decision: the lamp is sampled evenly too, which strata of the pixel leave to
+// chance.
+TEST(Sobol, IsLessNoisyThanUniformInThePixelAndOverLights) {
+    EXPECT_LT(noise(edges(), Estimator::sobol), 0.5 * noise(edges(), Estimator::uniform));
+    EXPECT_LT(noise(soft_light(), Estimator::sobol), 0.5 * noise(soft_light(), Estimator::uniform));
+    EXPECT_LT(noise(soft_light(), Estimator::sobol), 0.6 * noise(soft_light(), Estimator::stratified));
 }
 
 TEST(Stratified, TakesTheLargestSquareOfSamples) {
@@ -64,10 +84,12 @@ TEST(Stratified, TakesTheLargestSquareOfSamples) {
 }
 
 // Asking for more samples adds to those there are. Here a sample is 0 or 1, so that a pixel's mean tells their number.
-TEST(Uniform, SampleIsTheSameHoweverManyFollow) {
+class Prefix : public testing::TestWithParam<Estimator> {};
+
+TEST_P(Prefix, SampleIsTheSameHoweverManyFollow) {
     Scene scene = picture({0, 0, -5}, {0, 0, 0}, 40, 0);
     add_lamp(scene, {0.3, 0.4, 0}, 1.2, dvec3{1});
-    scene.settings.estimator = Estimator::uniform;
+    scene.settings.estimator = GetParam();
     std::vector<long> lit(256, 0);
     long mixed = 0;
     for (std::uint32_t samples = 1; samples <= 40; ++samples) {
@@ -83,6 +105,8 @@ TEST(Uniform, SampleIsTheSameHoweverManyFollow) {
     }
     EXPECT_GT(mixed, 10) << "the scene has pixels on an edge";
 }
+
+INSTANTIATE_TEST_SUITE_P(Estimators, Prefix, testing::Values(Estimator::uniform, Estimator::sobol));
 
 }  // namespace
 }  // namespace orrery::test

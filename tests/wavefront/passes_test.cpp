@@ -75,6 +75,7 @@ class StopAtAnError : public testing::TestWithParam<bool> {};
 TEST_P(StopAtAnError, LandsThere) {
     const Asked cases[] = {{"noise", noisy(), Estimator::stratified, 0.05},
                            {"noise, uniform", noisy(), Estimator::uniform, 0.05},
+                           {"noise, sobol", noisy(), Estimator::sobol, 0.05},
                            {"edges", edges(), Estimator::stratified, 0.02}};
     for (Asked asked : cases) {
         asked.scene.settings.estimator = asked.estimator;

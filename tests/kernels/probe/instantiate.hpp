@@ -121,16 +121,25 @@ struct Probe {
     }
     static void random_block(const kernels::RandomKey& key, const Word* pixel, const Word* sample, const Word* vertex,
                              Real* const out[4], Count n) {
+        each_block(kernels::random_block<V>, key, pixel, sample, vertex, out, n);
+    }
+    static void sobol_block(const kernels::RandomKey& key, const Word* pixel, const Word* sample, const Word* vertex,
+                            Real* const out[4], Count n) {
+        each_block(kernels::sobol_block<V>, key, pixel, sample, vertex, out, n);
+    }
+
+private:
+    template <class Block>
+    static void each_block(Block block, const kernels::RandomKey& key, const Word* pixel, const Word* sample,
+                           const Word* vertex, Real* const out[4], Count n) {
         for (Count i = 0; i < n; i += V::count) {
-            const auto r = kernels::random_block<V>(key, word(pixel + i), word(sample + i), word(vertex + i));
+            const auto r = block(key, word(pixel + i), word(sample + i), word(vertex + i));
             kernels::save(out[0] + i, r.x);
             kernels::save(out[1] + i, r.y);
             kernels::save(out[2] + i, r.z);
             kernels::save(out[3] + i, r.w);
         }
     }
-
-private:
     // Found by argument-dependent lookup for batches, in kernels for plain truth values.
     static bool any_of(const typename V::M& m) {
         using kernels::any;
@@ -156,7 +165,7 @@ constexpr LaneProbe<typename V::Real> make_probe() {
     p.compress_numbers = P::compress_numbers, p.compress_words = P::compress_words;
     p.gather = P::gather, p.gather_words = P::gather_words;
     p.lookup = P::lookup, p.lookup_words = P::lookup_words;
-    p.pcg4d = P::pcg4d, p.random_block = P::random_block;
+    p.pcg4d = P::pcg4d, p.random_block = P::random_block, p.sobol_block = P::sobol_block;
     return p;
 }
 

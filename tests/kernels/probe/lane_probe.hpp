@@ -47,8 +47,9 @@ struct LaneProbe {
 
     /// Four words per item, in four columns.
     void (*pcg4d)(const Word* const counters[4], Word* const out[4], std::uint32_t n);
-    void (*random_block)(const kernels::RandomKey& key, const Word* pixel, const Word* sample, const Word* vertex,
-                         Real* const out[4], std::uint32_t n);
+    using Block = void (*)(const kernels::RandomKey& key, const Word* pixel, const Word* sample, const Word* vertex,
+                           Real* const out[4], std::uint32_t n);
+    Block random_block, sobol_block;
 };
 
 /// For a supported `isa`.
