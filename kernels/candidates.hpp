@@ -6,7 +6,9 @@
 
 #include <bit>
 #include <limits>
+#include <type_traits>
 
+#include "kernels/queues.hpp"
 #include "kernels/tables.hpp"
 #include "kernels/vec3.hpp"
 
@@ -40,8 +42,23 @@ ORRERY_INLINE SomeSpheres every(std::uint32_t count) {
     return {count == 0 ? 0 : ~std::uint64_t{0} >> (SomeSpheres::capacity - count)};
 }
 
-/// Rays bounded together. Fewer waste the bound, more widen the cone.
-inline constexpr std::uint32_t bunch_size = 256;
+/// Neighbours in a queue.
+template <class Real>
+struct RaySpan {
+    const Real* column[6];      ///< of their origins and directions
+    const Real* inverse_t_max;  ///< null for rays without an end
+    std::uint32_t count;
+};
+template <class Queue>
+ORRERY_INLINE auto span_of(const Queue& queue, std::uint32_t first, std::uint32_t count) {
+    using Real = std::remove_pointer_t<decltype(queue.ox)>;
+    const Real* inverse_t_max = nullptr;
+    if constexpr (requires { queue.inverse_t_max; }) inverse_t_max = queue.inverse_t_max + first;
+    return RaySpan<Real>{
+        {queue.ox + first, queue.oy + first, queue.oz + first, queue.dx + first, queue.dy + first, queue.dz + first},
+        inverse_t_max,
+        count};
+}
 
 /// Every ray starts within `spread` of `origin` and runs along `axis`, give or take `deviation`, as far as `t_max`.
 template <class Real>
@@ -50,25 +67,27 @@ struct Bunch {
     Real spread, deviation, t_max;
 };
 
-/// Whether the middle and the last of `count` rays run within some 35 degrees of the first, and begin no further from
-/// it than a fifth of its length: where they do not, as after a diffuse bounce, bounding the rest would be in vain.
+/// Whether the middle and the last of the rays run within some 35 degrees of the first, and begin no further from it
+/// than a fifth of its length: where they do not, as after a diffuse bounce, bounding the rest would be in vain, and so
+/// it would be for fewer rays than the widest vector.
 template <class Real>
-ORRERY_INLINE bool may_be_coherent(const Real* const (&column)[6], const Real* inverse_t_max, std::uint32_t count) {
+ORRERY_INLINE bool may_be_coherent(const RaySpan<Real>& rays) {
+    if (rays.count < widest) return false;
     const auto three = [&](int c, std::uint32_t i) ORRERY_INLINE_LAMBDA {
-        return Vec3<Real>{column[c][i], column[c + 1][i], column[c + 2][i]};
+        return Vec3<Real>{rays.column[c][i], rays.column[c + 1][i], rays.column[c + 2][i]};
     };
-    const Real inverse = inverse_t_max != nullptr ? *inverse_t_max : Real(0);
+    const Real inverse = rays.inverse_t_max != nullptr ? *rays.inverse_t_max : Real(0);
     const auto like_first = [&](std::uint32_t i) ORRERY_INLINE_LAMBDA {
         const Vec3<Real> apart = (three(0, i) - three(0, 0)) * inverse;
         return dot(three(3, i), three(3, 0)) > Real(0.8) && dot(apart, apart) < Real(0.04);
     };
-    return like_first(count - 1) && like_first(count / 2);
+    return like_first(rays.count - 1) && like_first(rays.count / 2);
 }
 
-/// Bounds `count` >= V::count rays whose origins and directions stand in the six columns.
+/// Bounds at least V::count rays.
 template <class V>
-ORRERY_INLINE Bunch<typename V::Real> bound(const typename V::Real* const (&column)[6],
-                                            const typename V::Real* inverse_t_max, std::uint32_t count) {
+ORRERY_INLINE Bunch<typename V::Real> bound(const RaySpan<typename V::Real>& rays) {
+    const auto& [column, inverse_t_max, count] = rays;
     using Real = typename V::Real;
     using F = typename V::F;
     F low[6], high[6];
@@ -153,13 +172,11 @@ ORRERY_INLINE SomeSpheres candidates(const SphereTable<typename V::Real>& sphere
     return {may & every(spheres.count).bits};
 }
 
-/// The same for the rays whose origins and directions stand in the six columns.
+/// The same for rays that may run anywhere.
 template <class V>
 ORRERY_INLINE SomeSpheres candidates(const SphereTable<typename V::Real>& spheres,
-                                     const typename V::Real* const (&column)[6], const typename V::Real* inverse_t_max,
-                                     std::uint32_t count) {
-    if (count < V::count || !may_be_coherent(column, inverse_t_max, count)) return every(spheres.count);
-    return candidates<V>(spheres, bound<V>(column, inverse_t_max, count));
+                                     const RaySpan<typename V::Real>& rays) {
+    return may_be_coherent(rays) ? candidates<V>(spheres, bound<V>(rays)) : every(spheres.count);
 }
 
 }  // namespace orrery::kernels

@@ -135,11 +135,7 @@ void intersect_coherent(const SphereTable<typename V::Real>& spheres, const RayQ
                         std::uint32_t count, const HitQueue<typename V::Real>& hits) {
     for (std::uint32_t begin = 0; begin < count; begin += bunch_size) {
         const std::uint32_t end = count - begin < bunch_size ? count : begin + bunch_size;
-        const SomeSpheres among = candidates<V>(
-            spheres,
-            {rays.ox + begin, rays.oy + begin, rays.oz + begin, rays.dx + begin, rays.dy + begin, rays.dz + begin},
-            nullptr, end - begin);
-        intersect_among<V>(spheres, among, rays, begin, end, hits);
+        intersect_among<V>(spheres, candidates<V>(spheres, span_of(rays, begin, end - begin)), rays, begin, end, hits);
     }
 }
 

@@ -18,6 +18,9 @@ namespace orrery::kernels {
 /// The most lanes any kernel works on at once (two AVX-512 vectors); every capacity is a multiple.
 inline constexpr std::uint32_t widest = 32;
 
+/// Rays bounded together, and rays that go down a tree together. Fewer waste the bound, more widen it.
+inline constexpr std::uint32_t bunch_size = 256;
+
 ORRERY_INLINE constexpr std::uint32_t round_up(std::uint32_t n) { return (n + widest - 1) / widest * widest; }
 
 /// Rays in flight, one bounce number for all (Whitted: one live ray per slot).

@@ -38,10 +38,7 @@ void shadow_coherent(const SphereTable<typename V::Real>& spheres, const ShadowQ
                      std::uint32_t count, std::uint32_t skip, const SlotTable<typename V::Real>& slots) {
     for (std::uint32_t begin = 0; begin < count; begin += bunch_size) {
         const std::uint32_t end = count - begin < bunch_size ? count : begin + bunch_size;
-        const SomeSpheres among = candidates<V>(spheres,
-                                                {queue.ox + begin, queue.oy + begin, queue.oz + begin, queue.dx + begin,
-                                                 queue.dy + begin, queue.dz + begin},
-                                                queue.inverse_t_max + begin, end - begin);
+        const SomeSpheres among = candidates<V>(spheres, span_of(queue, begin, end - begin));
         shadow_among<V>(spheres, among, queue, begin, end, skip, slots);
     }
 }

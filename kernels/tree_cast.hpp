@@ -14,8 +14,8 @@ namespace orrery::kernels {
 template <class Real>
 struct TreeHits {
     using Word = WordOf<Real>;
-    alignas(64) Real t[tree_bunch];   ///< t_max where nothing was met
-    alignas(64) Word id[tree_bunch];  ///< with inside_bit; no_sphere where nothing was met
+    alignas(64) Real t[bunch_size];   ///< t_max where nothing was met
+    alignas(64) Word id[bunch_size];  ///< with inside_bit; no_sphere where nothing was met
 };
 
 /// Rays of a queue or columns. They begin at their origins and leave `left`, or they begin at t_min and leave nothing:
@@ -59,7 +59,7 @@ ORRERY_INLINE void put_inner_roots(const SphereTable<typename V::Real>& spheres,
     id = choose(closer, left, id);
 }
 
-/// Closest hits of `count` <= tree_bunch rays with t_min < t < t_max, as intersect.hpp's closest_hit has them.
+/// Closest hits of `count` <= bunch_size rays with t_min < t < t_max, as intersect.hpp's closest_hit has them.
 /// hits.t holds t_max for every ray.
 template <class V>
 ORRERY_INLINE void closest_in_tree(const SphereTable<typename V::Real>& spheres,
@@ -100,7 +100,7 @@ ORRERY_INLINE void closest_in_tree(const SphereTable<typename V::Real>& spheres,
                 });
 }
 
-/// Which of `count` <= tree_bunch rays meet a sphere but `skip` with t_min < t < 1 / inverse_t_max, as intersect.hpp's
+/// Which of `count` <= bunch_size rays meet a sphere but `skip` with t_min < t < 1 / inverse_t_max, as intersect.hpp's
 /// any_hit has it: 1 or 0.
 template <class V>
 ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres,

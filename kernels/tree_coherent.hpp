@@ -42,6 +42,22 @@ ORRERY_INLINE void put_in_order(SphereList<Real>& list) {
     list.count = size;
 }
 
+/// Adds those spheres of a leaf that the cone meets. False where the list overflows.
+template <class V>
+ORRERY_INLINE bool collect_leaf(const SphereTable<typename V::Real>& spheres, const Cone<V>& cone, std::uint32_t first,
+                                SphereList<typename V::Real>& list) {
+    const std::uint32_t last = spheres.count - first < tree_width ? spheres.count : first + tree_width;
+    for (std::uint32_t k = first; k < last; k += V::count) {
+        const std::uint32_t live = last - k < V::count ? (1u << (last - k)) - 1 : ~0u;
+        const auto centre = load3<V>(spheres.cx + k, spheres.cy + k, spheres.cz + k);
+        const std::uint32_t met = bits(cone.may_meet(centre, load<typename V::F>(spheres.radius + k))) & live;
+        compress_store<V>(list.id + list.count, consecutive<V>(k), met);
+        list.count += static_cast<std::uint32_t>(std::popcount(met));
+        if (list.count > list.capacity) return false;
+    }
+    return true;
+}
+
 /// Collects what spheres the bunch may meet. False where they are too many or too far apart in the tree.
 template <class V>
 ORRERY_INLINE bool collect(const SphereTable<typename V::Real>& spheres, const Bunch<typename V::Real>& bunch,
@@ -68,20 +84,10 @@ ORRERY_INLINE bool collect(const SphereTable<typename V::Real>& spheres, const B
             std::uint32_t may = bits(cone.may_meet((high + low) * F(Real(0.5)), radius) && half.x >= F(0));
             for (; may != 0; may &= may - 1) {
                 const std::uint32_t child = node.child[c + static_cast<std::uint32_t>(std::countr_zero(may))];
-                if ((child & leaf_bit) == 0) {
+                if ((child & leaf_bit) == 0)
                     waiting[end++] = child;
-                    continue;
-                }
-                const std::uint32_t first = child & ~leaf_bit;
-                const std::uint32_t last = spheres.count - first < tree_width ? spheres.count : first + tree_width;
-                for (std::uint32_t k = first; k < last; k += V::count) {
-                    const std::uint32_t live = last - k < V::count ? (1u << (last - k)) - 1 : ~0u;
-                    const auto centre = load3<V>(spheres.cx + k, spheres.cy + k, spheres.cz + k);
-                    const std::uint32_t met = bits(cone.may_meet(centre, load<F>(spheres.radius + k))) & live;
-                    compress_store<V>(list.id + list.count, consecutive<V>(k), met);
-                    list.count += static_cast<std::uint32_t>(std::popcount(met));
-                    if (list.count > list.capacity) return false;
-                }
+                else if (!collect_leaf<V>(spheres, cone, child & ~leaf_bit, list))
+                    return false;
             }
             if (end > most_nodes) return false;
         }
@@ -90,13 +96,11 @@ ORRERY_INLINE bool collect(const SphereTable<typename V::Real>& spheres, const B
     return true;
 }
 
-/// The same for rays whose origins and directions stand in the six columns; false also where they are not alike.
+/// The same for rays that may run anywhere; false also where they are not alike.
 template <class V>
-ORRERY_INLINE bool collect(const SphereTable<typename V::Real>& spheres, const typename V::Real* const (&column)[6],
-                           const typename V::Real* inverse_t_max, std::uint32_t count,
+ORRERY_INLINE bool collect(const SphereTable<typename V::Real>& spheres, const RaySpan<typename V::Real>& rays,
                            SphereList<typename V::Real>& list) {
-    if (count < V::count || !may_be_coherent(column, inverse_t_max, count)) return false;
-    return collect<V>(spheres, bound<V>(column, inverse_t_max, count), list);
+    return may_be_coherent(rays) && collect<V>(spheres, bound<V>(rays), list);
 }
 
 /// The least (t, id) of the list for every ray, as the tree has it: t is divided before it is compared.

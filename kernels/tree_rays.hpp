@@ -2,13 +2,11 @@
 // that keeps rounding from losing a hit.
 #pragma once
 
+#include "kernels/queues.hpp"
 #include "kernels/tables.hpp"
 #include "kernels/vec3.hpp"
 
 namespace orrery::kernels {
-
-/// Rays traversed together.
-inline constexpr std::uint32_t tree_bunch = 256;
 
 /// A plane at x is crossed at t = x inverse + near or + far: near where the ray enters the slab, far where it leaves.
 ///
@@ -27,12 +25,12 @@ inline constexpr double limit_margin = 1 + 0x1p-16;
 template <class Real>
 struct alignas(64) TreeRays {
     using Word = WordOf<Real>;
-    using Column = Real[tree_bunch];
+    using Column = Real[bunch_size];
     Column inverse[3], near[3], far[3];
     Column limit;  ///< no hit beyond this is of interest, margin included; negative: none at all
     Column origin[3], direction[3];
-    Word octant[tree_bunch];  ///< bit a is set where the ray runs down axis a
-    Word left[tree_bunch];    ///< the sphere it is not to meet; no_sphere for none
+    Word octant[bunch_size];  ///< bit a is set where the ray runs down axis a
+    Word left[bunch_size];    ///< the sphere it is not to meet; no_sphere for none
 };
 
 /// Fills lanes i.. of the columns.

@@ -14,17 +14,14 @@ void intersect_tree(const SphereTable<typename V::Real>& spheres, const RayQueue
     using F = typename V::F;
     using U = typename V::U;
     TreeHits<Real> found;
-    for (std::uint32_t first = 0; first < count; first += tree_bunch) {
-        const std::uint32_t bunch = count - first < tree_bunch ? count - first : tree_bunch;
+    for (std::uint32_t first = 0; first < count; first += bunch_size) {
+        const std::uint32_t bunch = count - first < bunch_size ? count - first : bunch_size;
         SphereList<Real> list;
-        if (collect<V>(
-                spheres,
-                {rays.ox + first, rays.oy + first, rays.oz + first, rays.dx + first, rays.dy + first, rays.dz + first},
-                nullptr, bunch, list)) {
+        if (collect<V>(spheres, span_of(rays, first, bunch), list)) {
             intersect_list<V>(spheres, list, rays, first, first + bunch, hits);
             continue;
         }
-        for (std::uint32_t i = 0; i < tree_bunch; ++i) found.t[i] = std::numeric_limits<Real>::infinity();
+        for (std::uint32_t i = 0; i < bunch_size; ++i) found.t[i] = std::numeric_limits<Real>::infinity();
         closest_in_tree<V>(spheres,
                            {rays.ox + first, rays.oy + first, rays.oz + first, rays.dx + first, rays.dy + first,
                             rays.dz + first, rays.left + first, nullptr},
@@ -42,14 +39,11 @@ void shadow_tree(const SphereTable<typename V::Real>& spheres, const ShadowQueue
     using Real = typename V::Real;
     using Word = typename V::Word;
     using U = typename V::U;
-    alignas(64) Word occluded[tree_bunch];
-    for (std::uint32_t first = 0; first < count; first += tree_bunch) {
-        const std::uint32_t bunch = count - first < tree_bunch ? count - first : tree_bunch;
+    alignas(64) Word occluded[bunch_size];
+    for (std::uint32_t first = 0; first < count; first += bunch_size) {
+        const std::uint32_t bunch = count - first < bunch_size ? count - first : bunch_size;
         SphereList<Real> list;
-        if (collect<V>(spheres,
-                       {queue.ox + first, queue.oy + first, queue.oz + first, queue.dx + first, queue.dy + first,
-                        queue.dz + first},
-                       queue.inverse_t_max + first, bunch, list)) {
+        if (collect<V>(spheres, span_of(queue, first, bunch), list)) {
             shadow_among<V>(spheres, list, queue, first, first + bunch, skip, slots);
             continue;
         }
@@ -78,8 +72,8 @@ void intersects_any_table(const SphereTable<typename V::Real>& spheres,
     using U = typename V::U;
     if (spheres.tree.count == 0) return intersects_columns<V>(spheres, segments, count, hits);
     TreeHits<Real> found;
-    for (std::uint32_t first = 0; first < count; first += tree_bunch) {
-        const std::uint32_t bunch = count - first < tree_bunch ? count - first : tree_bunch;
+    for (std::uint32_t first = 0; first < count; first += bunch_size) {
+        const std::uint32_t bunch = count - first < bunch_size ? count - first : bunch_size;
         for (std::uint32_t i = 0; i < bunch; i += V::count) save(found.t + i, load<F>(segments.t_max + first + i));
         closest_in_tree<V>(spheres, source_of(segments, first), bunch, found);
         for (std::uint32_t i = 0; i < bunch; i += V::count) {
@@ -97,9 +91,9 @@ void is_occluded_any_table(const SphereTable<typename V::Real>& spheres,
     using Real = typename V::Real;
     using F = typename V::F;
     if (spheres.tree.count == 0) return is_occluded_columns<V>(spheres, segments, count, occluded);
-    alignas(64) Real inverse_t_max[tree_bunch];
-    for (std::uint32_t first = 0; first < count; first += tree_bunch) {
-        const std::uint32_t bunch = count - first < tree_bunch ? count - first : tree_bunch;
+    alignas(64) Real inverse_t_max[bunch_size];
+    for (std::uint32_t first = 0; first < count; first += bunch_size) {
+        const std::uint32_t bunch = count - first < bunch_size ? count - first : bunch_size;
         for (std::uint32_t i = 0; i < bunch; i += V::count)
             save(inverse_t_max + i, F(1) / load<F>(segments.t_max + first + i));
         occluded_in_tree<V>(spheres, source_of(segments, first), inverse_t_max, bunch, no_sphere, occluded + first);

@@ -27,7 +27,7 @@ struct TreeFrame {
 template <class Real>
 struct TreeStack {
     using Word = WordOf<Real>;
-    static constexpr std::uint32_t room = (tree_depth + 1) * (tree_bunch + tree_width);
+    static constexpr std::uint32_t room = (tree_depth + 1) * (bunch_size + tree_width);
     TreeFrame frame[tree_depth];
     Word ray[room];  ///< place in TreeRays
     Word met[room];  ///< bit c: the ray has met child c
@@ -133,7 +133,7 @@ ORRERY_INLINE void traverse(const SphereTable<typename V::Real>& spheres, TreeRa
                             std::uint32_t count, TreeStack<typename V::Real>& stack, const Meet& meet) {
     using Word = typename V::Word;
     const auto& tree = spheres.tree;
-    alignas(64) Word places[tree_bunch];
+    alignas(64) Word places[bunch_size];
     for (std::uint32_t i = 0; i < count; i += V::count) save(places + i, consecutive<V>(i));
     for (std::uint32_t i = count; i < round_up(count); ++i) rays.octant[i] = 8;
 

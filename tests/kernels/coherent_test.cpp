@@ -53,6 +53,31 @@ Ray ray_of(const Beam& beam, const Ball& target, const glm::dvec3& eye, Numbers&
     return {o, glm::normalize(outline + random.direction() * beam.angle)};
 }
 
+/// Rays as the stages take them together: every bunch is a beam from a place of its own past a ball of its own.
+class Bunches {
+public:
+    Bunches(const std::vector<Ball>& balls, const glm::dvec3& place, const Beam& beam, Numbers& random)
+        : balls_(balls), place_(place), beam_(beam), random_(random) {}
+    const Ray& next() {
+        const bool first = count_++ % kernels::bunch_size == 0;
+        if (first) eye_ = place_ + random_.point(20), target_ = &balls_[random_.below(size())];
+        if (first || beam_.angle > 0) ray_ = ray_of(beam_, *target_, eye_, random_);
+        return ray_;
+    }
+    /// What the last one runs past.
+    const Ball& target() const { return *target_; }
+    std::uint32_t size() const { return static_cast<std::uint32_t>(balls_.size()); }
+
+private:
+    const std::vector<Ball>& balls_;
+    glm::dvec3 place_, eye_{};
+    Beam beam_;
+    Numbers& random_;
+    std::uint32_t count_ = 0;
+    const Ball* target_ = nullptr;
+    Ray ray_{};
+};
+
 class CoherentTest : public KernelTest {};
 
 TEST_P(CoherentTest, MeetsWhatTheLoopMeets) {
@@ -61,13 +86,9 @@ TEST_P(CoherentTest, MeetsWhatTheLoopMeets) {
                              const Beam& beam, std::uint32_t count) {
         Numbers random(count);
         Rays rays(kernels::round_up(count));
-        glm::dvec3 eye{};
-        const Ball* target = nullptr;
-        Ray ray{};
+        Bunches bunches(balls, place, beam, random);
         for (std::uint32_t i = 0; i < count; ++i) {
-            const bool first = i % kernels::bunch_size == 0;
-            if (first) eye = place + random.point(20), target = &balls[random.below(world.spheres.count)];
-            if (first || beam.angle > 0) ray = ray_of(beam, *target, eye, random);
+            const Ray& ray = bunches.next();
             // Rays that leave a sphere are as coherent: neighbours' first hits, a mirror's image.
             put_ray(*rays, i, ray.o, ray.d, i % 3 == 0 ? random.below(world.spheres.count) : no_sphere);
         }
@@ -107,13 +128,9 @@ TEST_P(CoherentTest, MeetsInATreeWhatEachRayMeetsAlone) {
                 constexpr std::uint32_t count = 300;
                 Numbers random(size);
                 Rays rays(kernels::round_up(count));
-                glm::dvec3 eye{};
-                const Ball* target = nullptr;
-                Ray ray{};
+                Bunches bunches(balls, place, beam, random);
                 for (std::uint32_t i = 0; i < count; ++i) {
-                    const bool first = i % kernels::bunch_size == 0;
-                    if (first) eye = place + random.point(20), target = &balls[random.below(size)];
-                    if (first || beam.angle > 0) ray = ray_of(beam, *target, eye, random);
+                    const Ray& ray = bunches.next();
                     const std::uint32_t left = random.below(size) | (i % 2 == 0 ? kernels::inside_bit : 0);
                     put_ray(*rays, i, ray.o, ray.d, i % 3 == 0 ? left : no_sphere);
                 }
@@ -168,18 +185,11 @@ TEST_P(CoherentTest, IsShadowedByWhatTheLoopFinds) {
             for (const std::uint32_t count : {1u, 33u, 256u, 3700u}) {
                 Numbers random(count + skip);
                 Shadows queue(kernels::round_up(count));
-                glm::dvec3 eye{};
-                const Ball* target = nullptr;
-                Ray ray{};
-                double reach = 0;
+                Bunches bunches(balls, places[0], beam, random);
                 for (std::uint32_t i = 0; i < count; ++i) {
-                    const bool first = i % kernels::bunch_size == 0;
-                    if (first) eye = random.point(20), target = &balls[random.below(50)];
-                    if (first || beam.angle > 0) {
-                        ray = ray_of(beam, *target, eye, random);
-                        // Ends before, about at and behind the target.
-                        reach = glm::length(target->centre - ray.o) * random.between(0.5, 1.5);
-                    }
+                    const Ray& ray = bunches.next();
+                    // Ends before, about at and behind the target.
+                    const double reach = glm::length(bunches.target().centre - ray.o) * random.between(0.5, 1.5);
                     put3(queue->ox, queue->oy, queue->oz, i, ray.o);
                     put3(queue->dx, queue->dy, queue->dz, i, ray.d);
                     put3(queue->r, queue->g, queue->b, i, glm::dvec3(1));
@@ -240,16 +250,18 @@ TEST(CandidatesTest, AreFewForANarrowBeamAndAllForAWideOne) {
 TEST(CandidatesTest, AreAllWhereRaysRunApart) {
     using One = kernels::ScalarLanes<float>;
     const World world({{{0, 0, 10}, 1}, {{0, 0, -10}, 1}});
-    const auto of = [&](const glm::dvec3& last, const glm::dvec3& last_origin, double inverse_t_max) {
+    const auto of = [&](const glm::dvec3& last, const glm::dvec3& last_origin, double inverse_t_max,
+                        std::uint32_t count = kernels::widest) {
         Rays rays(kernels::widest);
         std::vector<float> inverse(32, narrow(inverse_t_max));
         for (std::uint32_t k = 0; k < 32; ++k) put_ray(*rays, k, {0, 0, 0}, {0, 0, 1});
         put_ray(*rays, 31, last_origin, last);
-        return kernels::candidates<One>(world.spheres, {rays->ox, rays->oy, rays->oz, rays->dx, rays->dy, rays->dz},
-                                        inverse.data(), 32)
-            .bits;
+        auto span = kernels::span_of(*rays, 0, count);
+        span.inverse_t_max = inverse.data();
+        return kernels::candidates<One>(world.spheres, span).bits;
     };
     EXPECT_EQ(of({0, 0, 1}, {0, 0, 0}, 0), 1u);
+    EXPECT_EQ(of({0, 0, 1}, {0, 0, 0}, 0, 31), 3u) << "too few";
     EXPECT_EQ(of({0, 0.5, 1}, {0, 0, 0}, 0), 1u);
     EXPECT_EQ(of({0, 1, 1}, {0, 0, 0}, 0), 3u);
     EXPECT_EQ(of({0, 0, 1}, {1, 0, 0}, 0.1), 1u);
@@ -266,8 +278,7 @@ TEST(CandidatesTest, TheBoundHoldsEveryRay) {
         Rays rays(kernels::widest);
         for (std::uint32_t k = 0; k < 32; ++k)
             put_ray(*rays, k, place + random.point(spread), ahead + random.point(angle));
-        const auto bunch =
-            kernels::bound<One>({rays->ox, rays->oy, rays->oz, rays->dx, rays->dy, rays->dz}, nullptr, 32);
+        const auto bunch = kernels::bound<One>(kernels::span_of(*rays, 0, kernels::widest));
         const glm::dvec3 origin{bunch.origin.x, bunch.origin.y, bunch.origin.z};
         const glm::dvec3 axis{bunch.axis.x, bunch.axis.y, bunch.axis.z};
         for (std::uint32_t k = 0; k < 32; ++k) {
