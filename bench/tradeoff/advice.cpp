@@ -32,7 +32,9 @@ std::string verdict(const Outcome& outcome, const Effect& effect) {
         if (better(effect.gains[i])) gains.push_back(scene);
         if (worse(effect.gains[i])) losses.push_back(scene);
     }
-    const std::string option = fmt::format("* `{} {}`: ", effect.choice.option, effect.choice.word);
+    const Choice& choice = effect.choice;
+    const std::string base = choice.instead_of.empty() ? "" : fmt::format(", against `{}`", choice.instead_of);
+    const std::string option = fmt::format("* `{} {}`{}: ", choice.option, choice.word, base);
     if (gains.empty() && losses.empty()) return option + "no difference beyond the error bars.\n";
     if (gains.empty())
         return option + fmt::format("never. It is {} less efficient on average, and nowhere better.\n",
@@ -69,7 +71,7 @@ std::string advice(const Outcome& outcome) {
     bool any = false;
     for (const Effect& effect : effects_of(outcome)) {
         text += verdict(outcome, effect);
-        any = any || better(effect.mean);
+        any = any || (effect.choice.instead_of.empty() && better(effect.mean));
     }
     return text + (any ? "\nAn option above is better than its default on average: the default should change.\n"
                        : "\nNo option is better than its default on average over the scenes: the defaults stay.\n");

@@ -48,7 +48,9 @@ Shot take(const Scene& scene, const Setup& setup, std::uint32_t strata, std::uin
     RenderOptions options;
     options.isa = setup.isa;
     // An error that is never reached: the number of samples ends it.
-    if (setup.adaptive) options.goal = {.error = 1e-9, .samples = std::uint64_t{strata} * strata};
+    if (setup.taking != Taking::at_once)
+        options.goal = {
+            .error = 1e-9, .samples = std::uint64_t{strata} * strata, .adaptive = setup.taking == Taking::adaptively};
     const double start = processor_seconds_now();
     RenderResult result = render(plan, options);
     const double seconds = processor_seconds_now() - start;
@@ -60,7 +62,10 @@ std::uint32_t strata_for(const Scene& scene, const Setup& setup, double processo
     std::uint32_t strata = 1;
     double seconds = take(scene, setup, strata, 0).seconds;
     while (seconds < processor_seconds / 16 && strata < 1024) seconds = take(scene, setup, strata *= 2, 0).seconds;
-    return std::max(1u, static_cast<std::uint32_t>(std::lround(strata * std::sqrt(processor_seconds / seconds))));
+    const double fit = std::max(1.0, strata * std::sqrt(processor_seconds / seconds));
+    // A sequence is even after powers of two of its points, and whoever chooses it chooses these.
+    if (setup.settings.estimator == Estimator::sobol) return 1u << std::lround(std::log2(fit));
+    return static_cast<std::uint32_t>(std::lround(fit));
 }
 
 std::vector<Level> levels_up_to(std::uint32_t last) {
@@ -75,8 +80,10 @@ std::vector<Cell> cells_of(const Subject& subject, std::size_t index, double pro
     std::vector<std::pair<Isa, std::vector<Rgb>>> seen;
     for (const Variant& variant : all_variants()) {
         const Setup setup = variant.setup(subject.usual);
+        // Passes are even as long as there are few samples, and still not the same.
+        const bool in_passes = setup.taking != Taking::at_once;
         auto first = std::pair(setup.isa, take(subject.scene, setup, 4, 0).image.pixels);
-        if (std::ranges::find(seen, first) != seen.end()) continue;
+        if (!in_passes && std::ranges::find(seen, first) != seen.end()) continue;
         seen.push_back(std::move(first));
         // What the processor and the number format change is time: equal samples compare it without the noise of error.
         std::vector<Level> levels = cells.empty() || !variant.is_about_time()

@@ -49,18 +49,32 @@ const CellSummary& best_of(const Outcome& outcome, std::size_t subject) {
     return **std::ranges::max_element(cells, {}, efficiency);
 }
 
+namespace {
+
+/// What a choice is compared with on a subject; null where that was not measured.
+const CellSummary* base_of(const Outcome& outcome, const Choice& choice, std::size_t subject) {
+    if (choice.instead_of.empty()) return &outcome.defaults(subject);
+    const std::string name = choice.option + " " + choice.instead_of;
+    for (const CellSummary* cell : outcome.cells_of(subject))
+        if (cell->name == name) return cell;
+    return nullptr;
+}
+
+}  // namespace
+
 std::vector<Effect> effects_of(const Outcome& outcome) {
     std::vector<Effect> effects;
     for (const Variant& variant : all_variants()) {
         if (variant.choices.size() != 1) continue;
         Effect effect{variant.choices.front(), {}, {}, {}};
         for (const CellSummary& cell : outcome.cells) {
-            const Figure& usual = outcome.defaults(cell.scene).efficiency();
-            if (cell.name != variant.name() || !(cell.efficiency().value > 0) || !(usual.value > 0)) continue;
+            if (cell.name != variant.name()) continue;
+            const CellSummary* const base = base_of(outcome, effect.choice, cell.scene);
+            if (base == nullptr || !(cell.efficiency().value > 0) || !(base->efficiency().value > 0)) continue;
             effect.subjects.push_back(cell.scene);
-            effect.gains.push_back(variant.is_about_time() ? ratio(outcome.defaults(cell.scene).levels.back().seconds,
-                                                                   cell.levels.back().seconds)
-                                                           : ratio(cell.efficiency(), usual));
+            effect.gains.push_back(variant.is_about_time()
+                                       ? ratio(base->levels.back().seconds, cell.levels.back().seconds)
+                                       : ratio(cell.efficiency(), base->efficiency()));
         }
         if (effect.gains.empty()) continue;
         effect.mean = geometric_mean(effect.gains);

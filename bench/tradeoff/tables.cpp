@@ -57,7 +57,9 @@ std::string options(const Outcome& outcome) {
             const std::size_t i = effect.subjects[static_cast<std::size_t>(gain - effect.gains.begin())];
             return fmt::format("{} ({})", plus_minus(*gain), outcome.subjects[i].name);
         };
-        table += fmt::format("| `{} {}` | {} | {} | {} | {} |\n", effect.choice.option, effect.choice.word,
+        const std::string base =
+            effect.choice.instead_of.empty() ? "" : fmt::format(" (against `{}`)", effect.choice.instead_of);
+        table += fmt::format("| `{} {}`{} | {} | {} | {} | {} |\n", effect.choice.option, effect.choice.word, base,
                              effect.gains.size(), plus_minus(effect.mean), at(low), at(high));
     }
     return table;

@@ -28,8 +28,7 @@ Option setting(const char* option) {
 std::vector<Option> crossed_options() {
     return {setting<&RenderSettings::transport, transport_words>("--transport"),
             setting<&RenderSettings::light_sampling, light_sampling_words>("--light-sampling"),
-            setting<&RenderSettings::estimator, estimator_words>("--estimator"),
-            setting<&RenderSettings::roulette, switch_words>("--roulette")};
+            setting<&RenderSettings::estimator, estimator_words>("--estimator")};
 }
 
 Option isas() {
@@ -44,7 +43,7 @@ Option isas() {
 
 Option roulette_from() {
     Option choices;
-    for (const std::uint32_t from : {1u, 2u, 3u}) {
+    for (const std::uint32_t from : {2u, 4u, 8u}) {
         const auto choose = [](Setup& setup, std::size_t n) {
             setup.settings.roulette_from = static_cast<std::uint32_t>(n);
         };
@@ -55,10 +54,13 @@ Option roulette_from() {
 
 /// Options that are tried one by one.
 std::vector<Option> single_options() {
-    return {roulette_from(),
+    const auto evenly = [](Setup& setup, std::size_t) { setup.taking = Taking::in_passes; };
+    const auto adaptively = [](Setup& setup, std::size_t) { setup.taking = Taking::adaptively; };
+    return {setting<&RenderSettings::roulette, switch_words>("--roulette"),
+            roulette_from(),
             isas(),
             setting<&RenderSettings::precision, precision_words>("--precision"),
-            {{"--adaptive", "on", [](Setup& setup, std::size_t) { setup.adaptive = true; }, 0}}};
+            {{"--adaptive", "off", evenly, 0}, {"--adaptive", "on", adaptively, 0, "off"}}};
 }
 
 }  // namespace

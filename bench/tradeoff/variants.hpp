@@ -9,11 +9,15 @@
 
 namespace orrery::tradeoff {
 
+/// How samples are taken: all of a pixel in one go, or as --error and --time do, the same for all pixels or where the
+/// error is.
+enum class Taking : std::uint8_t { at_once, in_passes, adaptively };
+
 /// All that a variant may choose.
 struct Setup {
     RenderSettings settings;
     Isa isa = best_isa();
-    bool adaptive = false;  ///< samples go where the error is
+    Taking taking = Taking::at_once;
 };
 
 /// One word of one option, as on the command line: {"--transport", "nee"}.
@@ -21,6 +25,7 @@ struct Choice {
     std::string option, word;
     void (*choose)(Setup&, std::size_t word) = nullptr;  ///< puts it into a setup
     std::size_t index = 0;                               ///< of the word, for `choose`
+    std::string instead_of = {};                         ///< the word it is compared with, the default where empty
 };
 
 /// The usual setup with some choices made. No choice: the program's defaults.
@@ -35,8 +40,8 @@ struct Variant {
     bool is_about_time() const { return chooses("--isa") || chooses("--precision"); }
 };
 
-/// The defaults first; then all combinations of the options that say how light is sampled; then each other option by
-/// itself. An option that the library's settings gain is one row in variants.cpp.
+/// The defaults first; then all combinations of the options whose effects depend on each other; then each other option
+/// by itself. An option that the library's settings gain is one row in variants.cpp.
 std::vector<Variant> all_variants();
 
 /// What the scene says to compute, at `pixels` pixels or about, as the program would by default: whatever the scene

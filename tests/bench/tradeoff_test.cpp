@@ -41,7 +41,7 @@ TEST(Variants, BeginWithTheDefaultsAndHaveNamesOfTheirOwn) {
     EXPECT_EQ(variants.front().name(), "defaults");
     std::vector<std::string> names;
     for (const Variant& variant : variants) names.push_back(variant.name());
-    EXPECT_THAT(names, ::testing::Contains("--transport naive --estimator uniform --roulette off"));
+    EXPECT_THAT(names, ::testing::Contains("--transport naive --light-sampling area --estimator sobol"));
     EXPECT_THAT(names, ::testing::Contains("--roulette-from 2"));
     EXPECT_THAT(names, ::testing::Contains("--precision double"));
     std::ranges::sort(names);
