@@ -43,7 +43,7 @@ Option isas() {
 
 Option roulette_from() {
     Option choices;
-    for (const std::uint32_t from : {2u, 4u, 8u}) {
+    for (const std::uint32_t from : {0u, 4u}) {
         const auto choose = [](Setup& setup, std::size_t n) {
             setup.settings.roulette_from = static_cast<std::uint32_t>(n);
         };

@@ -111,7 +111,7 @@ void add_method(CLI::App& app, Overrides& overrides) {
     add_choice(app, "--roulette", switch_words, "End dim paths early, by lot (default: the scene's, else on)",
                overrides.roulette);
     add_number(app, "--roulette-from", "Method",
-               "Let every path scatter so often before its end is drawn for (default: the scene's, else 0)",
+               "Let every path scatter so often before its end is drawn for (default: the scene's, else 8)",
                overrides.roulette_from, 0, any);
 }
 

@@ -106,8 +106,8 @@ TEST(Options, RouletteFromPostponesTheGame) {
         options.insert(options.begin(), {"--depth", "4"});
         return stats_of("tests/diffuse_area.json", options)["rays"]["closest"].get<int>();
     };
-    EXPECT_EQ(rays({"--roulette-from", "0"}), rays({}));
-    EXPECT_LT(rays({}), rays({"--roulette-from", "1"}));
+    EXPECT_EQ(rays({"--roulette-from", "8"}), rays({}));
+    EXPECT_LT(rays({"--roulette-from", "0"}), rays({"--roulette-from", "1"}));
     EXPECT_LT(rays({"--roulette-from", "1"}), rays({"--roulette-from", "3"}));
     EXPECT_EQ(rays({"--roulette-from", "4"}), rays({"--roulette", "off"}));
     EXPECT_THAT(image_of("tests/diffuse_area.json", {"--roulette-from", "2"}, "x.exr"),

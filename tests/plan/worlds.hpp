@@ -18,6 +18,7 @@ inline Scene empty_world() {
     scene.settings.width = scene.settings.height = 4;
     scene.settings.samples = 4;
     scene.settings.depth = 5;
+    scene.settings.roulette_from = 0;
     return scene;
 }
 

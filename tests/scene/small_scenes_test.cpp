@@ -105,7 +105,7 @@ TEST(SmallScenes, RouletteIsAWordOrABoolean) {
 }
 
 TEST(SmallScenes, RouletteStartsWhereTheSceneSays) {
-    EXPECT_EQ(load("tests/diffuse_point").settings.roulette_from, 0u);
+    EXPECT_EQ(load("tests/diffuse_point").settings.roulette_from, 8u);
     Json json = world();
     json["scene"]["renderer"]["roulette from"] = 3;
     const ReadResult result = read(json);

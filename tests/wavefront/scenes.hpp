@@ -27,6 +27,7 @@ inline Scene picture(const dvec3& eye, const dvec3& target, double fov, std::uin
     scene.camera.fov = fov;
     scene.settings.width = scene.settings.height = 16;
     scene.settings.depth = depth;
+    scene.settings.roulette_from = 0;  // so that short paths meet it too
     return scene;
 }
 
