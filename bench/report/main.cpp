@@ -4,33 +4,13 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <span>
-#include <sstream>
 
+#include "bench/report/files.hpp"
 #include "bench/report/page.hpp"
-#include "image/atomic_file.hpp"
 
 namespace fs = std::filesystem;
 using namespace orrery;
 using namespace orrery::bench;
-
-namespace {
-
-std::string text_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream) throw std::runtime_error(fmt::format("cannot read {}", file.string()));
-    return text.str();
-}
-
-void write(const fs::path& file, const std::string& text) {
-    fs::create_directories(file.parent_path());
-    write_atomically(file, std::as_bytes(std::span(text)));
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
     if (argc != 3) {
@@ -41,9 +21,9 @@ int main(int argc, char** argv) {
         const fs::path folder = argv[2];
         const Results results = read_results(text_of(argv[1]));
         const std::string page = with_blocks(text_of(folder / "README.md"), blocks_of(results));
-        for (const auto& [name, svg] : plots_of(results)) write(folder / "plots" / name, svg);
-        write(folder / "results" / (file_name_of(results.cpu) + ".csv"), csv_of(results));
-        write(folder / "README.md", page);
+        for (const auto& [name, svg] : plots_of(results)) write_text(folder / "plots" / name, svg);
+        write_text(folder / "results" / (file_name_of(results.cpu) + ".csv"), csv_of(results));
+        write_text(folder / "README.md", page);
     } catch (const std::exception& fault) {
         fmt::print(stderr, "orrery_bench_report: {}\n", fault.what());
         return EXIT_FAILURE;

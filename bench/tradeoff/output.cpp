@@ -3,34 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <span>
-#include <sstream>
-#include <stdexcept>
 
+#include "bench/report/files.hpp"
 #include "bench/report/page.hpp"
-#include "image/atomic_file.hpp"
 
 namespace fs = std::filesystem;
 
 namespace orrery::tradeoff {
-
-namespace {
-
-std::string text_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream) throw std::runtime_error(fmt::format("cannot read {}", file.string()));
-    return text.str();
-}
-
-void write(const fs::path& file, const std::string& text) {
-    fs::create_directories(file.parent_path());
-    write_atomically(file, std::as_bytes(std::span(text)));
-}
-
-}  // namespace
 
 std::vector<const CellSummary*> Outcome::cells_of(std::size_t subject) const {
     std::vector<const CellSummary*> of_subject;
@@ -98,10 +77,10 @@ std::string csv_of(const Outcome& outcome) {
 }
 
 void write_all(const Outcome& outcome, const fs::path& folder) {
-    const std::string page = bench::with_blocks(text_of(folder / "TRADEOFF.md"), blocks_of(outcome));
-    for (const auto& [name, svg] : plots_of(outcome)) write(folder / "plots" / name, svg);
-    write(folder / "results" / "tradeoff.csv", csv_of(outcome));
-    write(folder / "TRADEOFF.md", page);
+    const std::string page = bench::with_blocks(bench::text_of(folder / "TRADEOFF.md"), blocks_of(outcome));
+    for (const auto& [name, svg] : plots_of(outcome)) bench::write_text(folder / "plots" / name, svg);
+    bench::write_text(folder / "results" / "tradeoff.csv", csv_of(outcome));
+    bench::write_text(folder / "TRADEOFF.md", page);
 }
 
 }  // namespace orrery::tradeoff

@@ -15,20 +15,14 @@ struct Case {
 };
 
 Scene noisy(Estimator estimator) {
-    Scene scene = still_life(glossy(0.8, 0.3), 4);
-    add_lamp(scene, {-1.5, 4, -1}, 0.8, {8, 7, 6});
-    scene.background = {0.1, 0.2, 0.3};
+    Scene scene = test::noisy(4, 16);
     scene.settings.samples = 16;
     scene.settings.estimator = estimator;
     return scene;
 }
 
-/// Edges are all the error there is.
 Scene whitted() {
-    Scene scene = still_life(glass(0.9, 1.5), 6);
-    add_point_light(scene, {-3, 5, -3}, {90, 80, 70});
-    scene.background = {0.3, 0.4, 0.5};
-    scene.settings.integrator = Integrator::whitted;
+    Scene scene = edges(16);
     scene.settings.samples = 16;
     return scene;
 }

@@ -9,23 +9,8 @@
 namespace orrery::test {
 namespace {
 
-Scene noisy() {
-    Scene scene = still_life(glossy(0.8, 0.3), 3);
-    add_lamp(scene, {-1.5, 4, -1}, 0.8, {8, 7, 6});
-    scene.background = {0.1, 0.2, 0.3};
-    scene.settings.width = scene.settings.height = 24;
-    return scene;
-}
-
-/// Edges are all the error there is.
-Scene edges() {
-    Scene scene = still_life(glass(0.9, 1.5), 6);
-    add_point_light(scene, {-3, 5, -3}, {90, 80, 70});
-    scene.background = {0.3, 0.4, 0.5};
-    scene.settings.integrator = Integrator::whitted;
-    scene.settings.width = scene.settings.height = 24;
-    return scene;
-}
+/// In pixels along either side.
+constexpr std::uint32_t side = 24;
 
 /// One path in some hundred finds the lamp, and half of the first images are black.
 Scene rare() {
@@ -73,10 +58,10 @@ class StopAtAnError : public testing::TestWithParam<bool> {};
 // 0.8 to 1.2 of what was asked, in most renders and for the mean over seeds. (An image of 24 x 24 knows its error to
 // a tenth or so.)
 TEST_P(StopAtAnError, LandsThere) {
-    const Asked cases[] = {{"noise", noisy(), Estimator::stratified, 0.05},
-                           {"noise, uniform", noisy(), Estimator::uniform, 0.05},
-                           {"noise, sobol", noisy(), Estimator::sobol, 0.05},
-                           {"edges", edges(), Estimator::stratified, 0.02}};
+    const Asked cases[] = {{"noise", noisy(3, side), Estimator::stratified, 0.05},
+                           {"noise, uniform", noisy(3, side), Estimator::uniform, 0.05},
+                           {"noise, sobol", noisy(3, side), Estimator::sobol, 0.05},
+                           {"edges", edges(side), Estimator::stratified, 0.02}};
     for (Asked asked : cases) {
         asked.scene.settings.estimator = asked.estimator;
         const Image truth = converged(asked.scene, 8100);
@@ -125,9 +110,9 @@ TEST_P(StopAtAnError, IsNotFooledByRareBrightPaths) {
 
 TEST_P(StopAtAnError, GivesTheSameBytesForAnyThreadsAndWaveSize) {
     const Goal goal{.error = 0.08, .adaptive = GetParam()};
-    const RenderResult expected = render_to(noisy(), goal, 1);
+    const RenderResult expected = render_to(noisy(3, side), goal, 1);
     for (const auto& [threads, wave] : {std::pair{1u, 17u}, {2u, 0u}, {7u, 100u}, {2u, 5000u}}) {
-        const RenderResult result = render_to(noisy(), goal, threads, wave);
+        const RenderResult result = render_to(noisy(3, side), goal, threads, wave);
         EXPECT_EQ(result.image.pixels, expected.image.pixels) << threads << " threads, waves of " << wave;
         EXPECT_EQ(result.stats.passes, expected.stats.passes);
         EXPECT_EQ(result.stats.samples_per_pixel, expected.stats.samples_per_pixel);
@@ -141,7 +126,7 @@ TEST_P(StopAtAnError, IsWithoutBias) {
     Scene strip = rare();
     strip.settings.width = 256;
     strip.settings.height = 1;
-    const std::pair<Scene, Goal> cases[] = {{noisy(), {.error = 0.3, .adaptive = GetParam()}},
+    const std::pair<Scene, Goal> cases[] = {{noisy(3, side), {.error = 0.3, .adaptive = GetParam()}},
                                             {strip, {.error = 1e-3, .samples = 200, .adaptive = GetParam()}}};
     for (auto [scene, goal] : cases) {
         const auto truth = reference::render(scene, {.samples = 4000, .block_size = 4, .next_event = true});
@@ -160,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Adaptive, StopAtAnError, testing::Bool());
 
 TEST(Passes, SpendSamplesWhereTheErrorIs) {
     const Goal goal{.error = 0.04};
-    Scene scene = noisy();
+    Scene scene = noisy(3, side);
     scene.settings.width = scene.settings.height = 64;
     const RenderStats adaptive = render_to(scene, goal).stats;
     const RenderStats uniform = render_to(scene, {.error = 0.04, .adaptive = false}).stats;
@@ -171,7 +156,7 @@ TEST(Passes, SpendSamplesWhereTheErrorIs) {
 
 // No sample comes twice, none is left out: uniform samples are numbered through the passes, and sum up in that order.
 TEST(Passes, TakeTheSamplesOfOneGo) {
-    Scene scene = noisy();
+    Scene scene = noisy(3, side);
     scene.settings.estimator = Estimator::uniform;
     const RenderResult result = render_to(scene, {.error = 0.1, .adaptive = false});
     EXPECT_GT(result.stats.passes, 3u);
@@ -183,7 +168,7 @@ TEST(Passes, KeepBelowTheCeiling) {
     for (const std::uint64_t samples : {1u, 2u, 5u, 33u, 100u, 500u})
         for (const bool adaptive : {true, false})
             for (const Estimator estimator : {Estimator::stratified, Estimator::uniform}) {
-                Scene scene = noisy();
+                Scene scene = noisy(3, side);
                 scene.settings.estimator = estimator;
                 const RenderStats stats =
                     render_to(scene, {.error = 1e-3, .samples = samples, .adaptive = adaptive}).stats;
@@ -194,13 +179,13 @@ TEST(Passes, KeepBelowTheCeiling) {
 }
 
 TEST(Passes, StopByTheClock) {
-    const RenderStats stats = render_to(noisy(), {.seconds = 0.2}).stats;
+    const RenderStats stats = render_to(noisy(3, side), {.seconds = 0.2}).stats;
     EXPECT_EQ(stats.stopped_by, StopReason::time);
     EXPECT_GT(stats.seconds, 0.15);
     EXPECT_GE(stats.least_samples, 2u);
     EXPECT_GT(stats.error.relative.value, 0);
     // Too short for anything: the first pass is still there.
-    EXPECT_EQ(render_to(noisy(), {.seconds = 1e-9}).stats.least_samples, 2u);
+    EXPECT_EQ(render_to(noisy(3, side), {.seconds = 1e-9}).stats.least_samples, 2u);
 }
 
 TEST(Passes, BelieveThatAnImageHasNoNoiseAfterAWhile) {
@@ -215,7 +200,7 @@ TEST(Passes, BelieveThatAnImageHasNoNoiseAfterAWhile) {
 
 TEST(Passes, WorkForAnyImage) {
     for (const auto& [width, height] : {std::pair{1u, 1u}, {2u, 1u}, {1u, 40u}, {17u, 16u}, {33u, 5u}}) {
-        Scene scene = noisy();
+        Scene scene = noisy(3, side);
         scene.settings.width = width;
         scene.settings.height = height;
         const RenderStats stats = render_to(scene, {.error = 0.2, .samples = 4000}).stats;
@@ -230,7 +215,7 @@ TEST(Passes, TellHowFarTheyAre) {
     options.goal = {.error = 0.03};
     options.progress = [&](double fraction, std::uint64_t) { fractions.push_back(fraction); };
     options.pass_done = [&](const ImageError& error) { errors.push_back(error.relative.value); };
-    const RenderResult result = orrery::render(Plan(noisy()), options);
+    const RenderResult result = orrery::render(Plan(noisy(3, side)), options);
     EXPECT_EQ(errors.size(), result.stats.passes);
     EXPECT_EQ(errors.back(), result.stats.error.relative.value);
     ASSERT_FALSE(fractions.empty());

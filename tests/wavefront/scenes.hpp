@@ -59,6 +59,25 @@ inline Scene still_life(const Material& material, std::uint32_t depth = 4) {
     return scene;
 }
 
+/// Noise from a lamp and a glossy ball: `size` by `size` pixels.
+inline Scene noisy(std::uint32_t depth, std::uint32_t size) {
+    Scene scene = still_life(glossy(0.8, 0.3), depth);
+    add_lamp(scene, {-1.5, 4, -1}, 0.8, {8, 7, 6});
+    scene.background = {0.1, 0.2, 0.3};
+    scene.settings.width = scene.settings.height = size;
+    return scene;
+}
+
+/// Edges are all the error there is: `size` by `size` pixels.
+inline Scene edges(std::uint32_t size) {
+    Scene scene = still_life(glass(0.9, 1.5), 6);
+    add_point_light(scene, {-3, 5, -3}, {90, 80, 70});
+    scene.background = {0.3, 0.4, 0.5};
+    scene.settings.integrator = Integrator::whitted;
+    scene.settings.width = scene.settings.height = size;
+    return scene;
+}
+
 /// One of everything the program knows, some of it twice: every material, every light, overlapping and nested spheres,
 /// a lens. What no setting may change is tested on this.
 inline Scene everything(Integrator integrator = Integrator::path_tracing) {
