@@ -46,16 +46,16 @@ void emission(const SphereTable<typename V::Real>& spheres, const EmissionTable<
         const U surface = lookup<U>(spheres.surface, id, spheres.count);
         const auto emits = live && !missed && words_equal(surface & U(surface_emits), U(surface_emits));
         if (!any(emits)) continue;
+        const U light = lookup<U>(spheres.light, id, spheres.count);
         F weight(1);
         if (rays.pdf != nullptr) {
             const auto inside = !words_equal(hit, id);
-            const F density =
-                light_pdf<V>(strategy == LightStrategy::cone, load3<V>(rays.ox + i, rays.oy + i, rays.oz + i),
-                             load3<V>(rays.dx + i, rays.dy + i, rays.dz + i), load<F>(hits.t + i),
-                             gather_sphere<V>(spheres, id), inside);
+            F density = light_pdf<V>(strategy == LightStrategy::cone, load3<V>(rays.ox + i, rays.oy + i, rays.oz + i),
+                                     load3<V>(rays.dx + i, rays.dy + i, rays.dz + i), load<F>(hits.t + i),
+                                     gather_sphere<V>(spheres, id), inside);
+            if (lights.probability != nullptr) density = density * lookup<F>(lights.probability, light, lights.count);
             weight = scattering_weight<V>(load<F>(rays.pdf + i), density);
         }
-        const U light = lookup<U>(spheres.light, id, spheres.count);
         const auto radiance = lookup3<V>(lights.r, lights.g, lights.b, light, lights.count);
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i) * weight;
         add_radiance<V>(slots, load<U>(rays.slot + i), throughput * radiance, emits);

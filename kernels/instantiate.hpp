@@ -41,6 +41,10 @@ constexpr Stages<typename V::Real> make_stages(Isa isa) {
     s.connect_area[0][1] = connect_area<W, Response::glossy, area>;
     s.connect_area[1][0] = connect_area<W, Response::diffuse, cone>;
     s.connect_area[1][1] = connect_area<W, Response::glossy, cone>;
+    s.connect_chosen[0][0] = connect_chosen<W, Response::diffuse, area>;
+    s.connect_chosen[0][1] = connect_chosen<W, Response::glossy, area>;
+    s.connect_chosen[1][0] = connect_chosen<W, Response::diffuse, cone>;
+    s.connect_chosen[1][1] = connect_chosen<W, Response::glossy, cone>;
     s.shadow = shadow<S>;
     s.shadow_coherent = shadow_coherent<S>;
     s.shadow_tree = shadow_tree<V>;

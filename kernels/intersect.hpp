@@ -65,30 +65,54 @@ ORRERY_INLINE Closest<V> closest_hit(const SphereTable<typename V::Real>& sphere
     return best;
 }
 
-/// Whether any sphere but `skip` (no_sphere: none) is met with t_min < t < t_max, given 1 / t_max (0 for no end).
+// What segments end on, which cannot block them, is one sphere for all of a queue or a column of spheres; no_sphere
+// stands for none.
+
+/// The part of it behind the first n segments.
+ORRERY_INLINE std::uint32_t targets_behind(std::uint32_t target, std::uint32_t) { return target; }
+template <class Word>
+ORRERY_INLINE const Word* targets_behind(const Word* target, std::uint32_t n) {
+    return target + n;
+}
+/// What segments i.. end on, as any_hit wants it.
+template <class V>
+ORRERY_INLINE std::uint32_t targets_at(std::uint32_t target, std::uint32_t) {
+    return target;
+}
+template <class V>
+ORRERY_INLINE typename V::U targets_at(const typename V::Word* target, std::uint32_t i) {
+    return load<typename V::U>(target + i);
+}
+
+/// Whether any sphere but `target` (one for all segments, or a vector) is met with t_min < t < t_max, given 1 / t_max
+/// (0 for no end).
 ///
 /// From the origin the near root c / (b + s) lies before t_max exactly when g = c / t_max - b is negative or g^2 <
 /// disc: no square root and no division per sphere. The far root counts from within a sphere only, which is rare.
-template <class V, class Among, class Start>
+template <class V, class Among, class Start, class Target>
 ORRERY_INLINE typename V::M any_hit(const SphereTable<typename V::Real>& spheres, const Among& among,
                                     const Vec3<typename V::F>& o, const Vec3<typename V::F>& d,
                                     const typename V::U& left, const Start& t_min, const typename V::F& inverse_t_max,
-                                    std::uint32_t skip, const typename V::M& live) {
+                                    const Target& target, const typename V::M& live) {
     using F = typename V::F;
     using U = typename V::U;
+    constexpr bool one_target = std::is_same_v<Target, std::uint32_t>;
     constexpr bool from_origin = std::is_same_v<Start, FromOrigin>;
     const F zero(0);
     const U left_id = left & U(no_sphere);
     auto blocked = !live;
-    const auto inward = live && !words_equal(left, left_id) && !words_equal(left_id, U(skip));
+    const auto inward = live && !words_equal(left, left_id) && !words_equal(left_id, U(target));
     if (any(inward)) {
         const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
         blocked = blocked || (inward && t * inverse_t_max < F(1));
     }
     among.each([&](std::uint32_t k) ORRERY_INLINE_LAMBDA {
-        if (k == skip) return false;
+        if constexpr (one_target) {
+            if (k == target) return false;
+        }
         const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
-        const auto not_left = !words_equal(left_id, U(k));
+        auto not_left = !words_equal(left_id, U(k));
+        if constexpr (!one_target) not_left = not_left && !words_equal(target, U(k));
         auto rest = not_left && line.disc > zero;
         if constexpr (from_origin) {
             blocked = blocked || (not_left && near_root_before<V>(line, inverse_t_max));

@@ -76,7 +76,7 @@ struct LobeQueue {
     }
 };
 
-/// Segments towards one light, with the radiance that arrives if nothing blocks them.
+/// Segments towards lights, with the radiance that arrives if nothing blocks them.
 template <class Real>
 struct ShadowQueue {
     using Word = WordOf<Real>;
@@ -86,6 +86,7 @@ struct ShadowQueue {
     Real *r, *g, *b;      ///< contribution if unoccluded
     Word* left;           ///< as in RayQueue
     Word* slot;
+    Word* target;  ///< sphere the segment ends on, no_sphere for a point light. Null where all of a queue end on one.
 
     template <class Visit>
     ORRERY_INLINE static void each_field(Visit&& visit) {
@@ -94,6 +95,7 @@ struct ShadowQueue {
         visit("inverse_t_max", &ShadowQueue::inverse_t_max);
         visit("r", &ShadowQueue::r), visit("g", &ShadowQueue::g), visit("b", &ShadowQueue::b);
         visit("left", &ShadowQueue::left), visit("slot", &ShadowQueue::slot);
+        visit("target", &ShadowQueue::target);
     }
 };
 

@@ -3,7 +3,7 @@
 // Every pointer does what the template of the same name documents (generate.hpp, intersect.hpp, ...).
 #pragma once
 
-#include "kernels/connect.hpp"
+#include "kernels/connect_chosen.hpp"
 #include "kernels/isa.hpp"
 #include "kernels/scatter.hpp"
 #include "kernels/segment.hpp"
@@ -38,11 +38,14 @@ struct Stages {
                                            const RayQueue<Real>&, const LobeQueue<Real>&, const ShadowQueue<Real>&);
     using ConnectArea = std::uint32_t (*)(const ConnectContext<Real>&, const AreaLight<Real>&, Range,
                                           const RayQueue<Real>&, const LobeQueue<Real>&, const ShadowQueue<Real>&);
-    ConnectPoint connect_point[2];   ///< by Response
-    ConnectArea connect_area[2][2];  ///< by LightStrategy, Response
+    using ConnectChosen = std::uint32_t (*)(const ConnectContext<Real>&, const LightTable<Real>&, Range,
+                                            const RayQueue<Real>&, const LobeQueue<Real>&, const ShadowQueue<Real>&);
+    ConnectPoint connect_point[2];       ///< by Response
+    ConnectArea connect_area[2][2];      ///< by LightStrategy, Response
+    ConnectChosen connect_chosen[2][2];  ///< the same
 
-    using Shadow = void (*)(const SphereTable<Real>&, const ShadowQueue<Real>&, std::uint32_t count, std::uint32_t skip,
-                            const SlotTable<Real>&);
+    using Shadow = void (*)(const SphereTable<Real>&, const ShadowQueue<Real>&, std::uint32_t count,
+                            std::uint32_t target, const SlotTable<Real>&);
     Shadow shadow, shadow_coherent, shadow_tree;
 
     std::uint32_t (*roulette)(const SlotTable<Real>&, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs&,

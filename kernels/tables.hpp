@@ -67,6 +67,27 @@ struct AreaLight {
     Real r, g, b;
 };
 
+/// The lights of which a vertex samples one, and how it is chosen: by Walker's alias method. Cells are equally likely,
+/// and each belongs to its own light as far as `share`, to the light `other` beyond.
+template <class Real>
+struct LightTable {
+    using Word = WordOf<Real>;
+    std::uint32_t cells = 0;  ///< a power of two <= 2^24, so that the top bits of a random number are a cell; 0: unused
+    const Real* share = nullptr;  ///< a multiple of 2^-24 in [0, 1]: no random number is rounded to the other side
+    const Word* other = nullptr;
+
+    std::uint32_t count = 0;   ///< of lights, <= cells
+    const Real* px = nullptr;  ///< a point light's position, an area light's centre
+    const Real* py = nullptr;
+    const Real* pz = nullptr;
+    const Real* radius = nullptr;  ///< 0 for a point light
+    const Real* r = nullptr;       ///< radiant intensity or radiance
+    const Real* g = nullptr;
+    const Real* b = nullptr;
+    const Real* inverse_probability = nullptr;  ///< of choosing it, >= 1
+    const Word* sphere = nullptr;               ///< no_sphere for a point light
+};
+
 /// What an area light emits, by light index, for rays that run into one.
 template <class Real>
 struct EmissionTable {
@@ -74,6 +95,7 @@ struct EmissionTable {
     const Real* r = nullptr;
     const Real* g = nullptr;
     const Real* b = nullptr;
+    const Real* probability = nullptr;  ///< that a vertex samples this light; null where every vertex samples all
     Real background_r = 0, background_g = 0, background_b = 0;
     bool has_background = false;
     bool has_emitters = false;

@@ -100,12 +100,12 @@ ORRERY_INLINE void closest_in_tree(const SphereTable<typename V::Real>& spheres,
                 });
 }
 
-/// Which of `count` <= bunch_size rays meet a sphere but `skip` with t_min < t < 1 / inverse_t_max, as intersect.hpp's
-/// any_hit has it: 1 or 0.
-template <class V>
+/// Which of `count` <= bunch_size rays meet a sphere but `target` with t_min < t < 1 / inverse_t_max, as
+/// intersect.hpp's any_hit has it: 1 or 0.
+template <class V, class Target>
 ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres,
                                     const TreeSource<typename V::Real>& source, const typename V::Real* inverse_t_max,
-                                    std::uint32_t count, std::uint32_t skip, typename V::Word* occluded) {
+                                    std::uint32_t count, const Target& target, typename V::Word* occluded) {
     using Real = typename V::Real;
     using F = typename V::F;
     using U = typename V::U;
@@ -120,7 +120,7 @@ ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres
         if (source.left != nullptr) {
             const U left = choose(first_lanes<V>(count - i), load<U>(source.left + i), U(no_sphere));
             left_id = left & U(no_sphere);
-            const auto inward = !words_equal(left, left_id) && !words_equal(left_id, U(skip));
+            const auto inward = !words_equal(left, left_id) && !words_equal(left_id, U(targets_at<V>(target, i)));
             if (any(inward)) {
                 const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
                 blocked = choose(inward && t * inverse < F(1), U(1u), blocked);
@@ -132,7 +132,7 @@ ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres
     }
     traverse<V>(spheres, rays, count, stack,
                 [&](std::uint32_t ray, const Chord<Real>& line, std::uint32_t k) ORRERY_INLINE_LAMBDA {
-                    if (k == skip || occluded[ray] != 0) return;
+                    if (k == targets_at<One>(target, ray) || occluded[ray] != 0) return;
                     const Real inverse = inverse_t_max[ray];
                     bool hit = source.t_min == nullptr && near_root_before<One>(line, inverse);
                     if (!hit && (source.t_min != nullptr || line.c <= 0)) {

@@ -33,24 +33,25 @@ void intersect_tree(const SphereTable<typename V::Real>& spheres, const RayQueue
     }
 }
 
-template <class V>
-void shadow_tree(const SphereTable<typename V::Real>& spheres, const ShadowQueue<typename V::Real>& queue,
-                 std::uint32_t count, std::uint32_t skip, const SlotTable<typename V::Real>& slots) {
-    using Real = typename V::Real;
+/// `target` as in targets_at.
+template <class V, class Target>
+ORRERY_INLINE void shadow_in_tree(const SphereTable<typename V::Real>& spheres,
+                                  const ShadowQueue<typename V::Real>& queue, std::uint32_t count, const Target& target,
+                                  const SlotTable<typename V::Real>& slots) {
     using Word = typename V::Word;
     using U = typename V::U;
     alignas(64) Word occluded[bunch_size];
     for (std::uint32_t first = 0; first < count; first += bunch_size) {
         const std::uint32_t bunch = count - first < bunch_size ? count - first : bunch_size;
-        SphereList<Real> list;
+        SphereList<typename V::Real> list;
         if (collect<V>(spheres, span_of(queue, first, bunch), list)) {
-            shadow_among<V>(spheres, list, queue, first, first + bunch, skip, slots);
+            shadow_among<V>(spheres, list, queue, first, first + bunch, target, slots);
             continue;
         }
         occluded_in_tree<V>(spheres,
                             {queue.ox + first, queue.oy + first, queue.oz + first, queue.dx + first, queue.dy + first,
                              queue.dz + first, queue.left + first, nullptr},
-                            queue.inverse_t_max + first, bunch, skip, occluded);
+                            queue.inverse_t_max + first, bunch, targets_behind(target, first), occluded);
         for (std::uint32_t i = 0; i < bunch; i += V::count) {
             const auto live = first_lanes<V>(bunch - i);
             const auto lit = live && words_equal(load<U>(occluded + i), U(0u));
@@ -60,6 +61,13 @@ void shadow_tree(const SphereTable<typename V::Real>& spheres, const ShadowQueue
                                 lit);
         }
     }
+}
+
+template <class V>
+void shadow_tree(const SphereTable<typename V::Real>& spheres, const ShadowQueue<typename V::Real>& queue,
+                 std::uint32_t count, std::uint32_t target, const SlotTable<typename V::Real>& slots) {
+    with_target(queue, target,
+                [&](const auto& ends) ORRERY_INLINE_LAMBDA { shadow_in_tree<V>(spheres, queue, count, ends, slots); });
 }
 
 /// intersects_columns of a table with or without a tree.

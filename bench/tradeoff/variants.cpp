@@ -56,7 +56,8 @@ Option roulette_from() {
 std::vector<Option> single_options() {
     const auto evenly = [](Setup& setup, std::size_t) { setup.taking = Taking::in_passes; };
     const auto adaptively = [](Setup& setup, std::size_t) { setup.taking = Taking::adaptively; };
-    return {setting<&RenderSettings::roulette, switch_words>("--roulette"),
+    return {setting<&RenderSettings::light_choice, light_choice_words>("--light-choice"),
+            setting<&RenderSettings::roulette, switch_words>("--roulette"),
             roulette_from(),
             isas(),
             setting<&RenderSettings::precision, precision_words>("--precision"),

@@ -108,6 +108,10 @@ void add_method(CLI::App& app, Overrides& overrides) {
     add_choice(app, "--light-sampling", light_sampling_words,
                "Aim at a lamp's whole surface, or at the cone it fills (default: the scene's, else cone)",
                overrides.light_sampling);
+    add_choice(app, "--light-choice", light_choice_words,
+               "Aim at all lamps from everywhere, or each time at one of them, any or rather a powerful one (default: "
+               "the scene's, else all)",
+               overrides.light_choice);
     add_choice(app, "--roulette", switch_words, "End dim paths early, by lot (default: the scene's, else on)",
                overrides.roulette);
     add_number(app, "--roulette-from", "Method",

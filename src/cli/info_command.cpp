@@ -40,8 +40,8 @@ std::string method_text(const RenderSettings& s) {
     if (s.integrator == Integrator::depth) return text;
     text += fmt::format(", depth {}", s.depth);
     if (s.integrator == Integrator::path_tracing) {
-        text += fmt::format(", transport {}, roulette {}", word_for(transport_words, s.transport),
-                            word_for(switch_words, s.roulette));
+        text += fmt::format(", transport {}, light choice {}, roulette {}", word_for(transport_words, s.transport),
+                            word_for(light_choice_words, s.light_choice), word_for(switch_words, s.roulette));
         if (s.roulette && s.roulette_from > 0) text += fmt::format(" from bounce {} on", s.roulette_from + 1);
     }
     return text + fmt::format(", light sampling {}", word_for(light_sampling_words, s.light_sampling));

@@ -28,6 +28,7 @@ std::string canonical_options(const RenderSettings& s, const Goal& goal, ImageFo
     }
     if (s.integrator == Integrator::path_tracing) {
         add("transport", word_for(transport_words, s.transport));
+        add("light-choice", word_for(light_choice_words, s.light_choice));
         add("roulette", word_for(switch_words, s.roulette));
         if (s.roulette) add("roulette-from", s.roulette_from);
     }

@@ -27,6 +27,7 @@ void apply(const Overrides& overrides, RenderSettings& settings) {
     replace(settings.estimator, overrides.estimator);
     replace(settings.transport, overrides.transport);
     replace(settings.light_sampling, overrides.light_sampling);
+    replace(settings.light_choice, overrides.light_choice);
     replace(settings.roulette, overrides.roulette);
     replace(settings.roulette_from, overrides.roulette_from);
     replace(settings.precision, overrides.precision);

@@ -23,6 +23,7 @@ struct Overrides {
     std::optional<Estimator> estimator;
     std::optional<Transport> transport;
     std::optional<LightSampling> light_sampling;
+    std::optional<LightChoice> light_choice;
     std::optional<bool> roulette;
     std::optional<std::uint32_t> roulette_from;
     std::optional<ToneMap> tonemap;

@@ -31,6 +31,8 @@ inline constexpr Words<Transport, 3> transport_words = {
     {{"naive", Transport::naive}, {"nee", Transport::nee}, {"mis", Transport::mis}}};
 inline constexpr Words<LightSampling, 2> light_sampling_words = {
     {{"area", LightSampling::area}, {"cone", LightSampling::cone}}};
+inline constexpr Words<LightChoice, 3> light_choice_words = {
+    {{"all", LightChoice::all}, {"uniform", LightChoice::uniform}, {"power", LightChoice::power}}};
 inline constexpr Words<Precision, 3> precision_words = {
     {{"auto", Precision::automatic}, {"float", Precision::binary32}, {"double", Precision::binary64}}};
 inline constexpr Words<bool, 2> switch_words = {{{"on", true}, {"off", false}}};

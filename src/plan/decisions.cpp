@@ -60,6 +60,14 @@ std::vector<Decision> Plan::decisions() const {
            : emitters_ == 0    ? "there is none"
            : naive             ? "naive transport finds them by scattering"
                                : "no surface samples them");
+    const auto lights = sampled_lights();
+    decide("shadow: light choice", n.one_light,
+           lights == 0                            ? "no light is sampled"
+           : lights == 1                          ? "there is one light to sample"
+           : n.integrator == Integrator::whitted  ? "Whitted ray tracing takes all lights"
+           : s.light_choice == LightChoice::all   ? fmt::format("all {} lights from every vertex", lights)
+           : s.light_choice == LightChoice::power ? fmt::format("one of {} lights by power", lights)
+                                                  : fmt::format("one of {} lights, all alike", lights));
     decide(
         "roulette: play", n.roulette,
         n.integrator == Integrator::whitted ? "Whitted ray tracing cuts weak branches instead"

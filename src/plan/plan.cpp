@@ -28,12 +28,16 @@ Plan::Plan(Scene scene) : scene_(std::move(scene)) {
         s.precision = coarse_positions(scene_, Precision::binary32) ? Precision::binary64 : Precision::binary32;
     }
     plan_camera();
-    plan_tables();
     plan_needs();
+    plan_tables();
 }
 
 std::uint32_t Plan::samples() const {
     return settings().estimator == Estimator::stratified ? strata_ * strata_ : settings().samples;
+}
+
+std::size_t Plan::sampled_lights() const {
+    return (needs_.connect_point != 0 ? point_lights_ : 0) + (needs_.connect_area != 0 ? emitters_ : 0);
 }
 
 void Plan::plan_camera() {
@@ -68,11 +72,13 @@ void Plan::plan_tables() {
         std::ranges::transform(spheres, order.begin(), &BuildSphere::index);
     }
     nodes_ = tree.nodes.size();
-    if (settings().precision == Precision::binary64) {
-        tables_.emplace<Tables<double>>(scene_, frame_, order, std::move(tree));
-    } else {
-        tables_.emplace<Tables<float>>(scene_, frame_, order, std::move(tree));
-    }
+    const auto fill = [&]<class Real>(Real) {
+        auto& tables = tables_.emplace<Tables<Real>>(scene_, frame_, order, std::move(tree));
+        if (!needs_.one_light) return;
+        if (needs_.connect_area != 0) tables.choose_lights(scene_, true);
+        if ((needs_.connect_point & ~needs_.connect_area) != 0) tables.choose_lights(scene_, false);
+    };
+    settings().precision == Precision::binary64 ? fill(double{}) : fill(float{});
 }
 
 void Plan::plan_needs() {
@@ -109,6 +115,7 @@ void Plan::plan_needs() {
         needs_.connect_area = needs_.competing ? rough : diffuse;
         needs_.scattering_pdf = needs_.connect_area != 0;
     }
+    needs_.one_light = s.light_choice != LightChoice::all && sampled_lights() > 1;
     needs_.roulette = s.roulette && s.depth > s.roulette_from;
     needs_.eta_scale = needs_.roulette && dielectric != 0;
     needs_.lobes = ((needs_.connect_point | needs_.connect_area) & ~diffuse) != 0;

@@ -23,6 +23,7 @@ struct Needs {
     bool background = false;          ///< rays that miss carry light
     std::uint32_t connect_point = 0;  ///< kinds whose vertices sample point lights
     std::uint32_t connect_area = 0;   ///< kinds whose vertices sample area lights
+    bool one_light = false;           ///< a vertex samples one light of several
     bool competing = false;           ///< light samples and scattering share the work (mis)
     bool scattering_pdf = false;      ///< rays carry the density that made them
     bool eta_scale = false;           ///< rays carry the radiance scaling roulette must not see
@@ -72,6 +73,8 @@ private:
     void plan_camera();
     void plan_tables();
     void plan_needs();
+    /// How many lights vertices aim at.
+    std::size_t sampled_lights() const;
 
     Scene scene_;
     Needs needs_;

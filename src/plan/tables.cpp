@@ -163,11 +163,19 @@ void Tables<Real>::put_lights(const Scene& scene) {
                 emission_columns_[0].data(),
                 emission_columns_[1].data(),
                 emission_columns_[2].data(),
+                nullptr,
                 f(b.r),
                 f(b.g),
                 f(b.b),
                 shines(b),
                 !area_lights.empty()};
+}
+
+template <class Real>
+void Tables<Real>::choose_lights(const Scene& scene, bool area) {
+    ChosenLights<Real>& chosen = chosen_lights_[area ? 1 : 0];
+    chosen = ChosenLights<Real>(light_weights(scene, scene.settings.light_choice, area), point_lights, area_lights);
+    if (area) emission.probability = chosen.area_probability.data();
 }
 
 template class Tables<float>;

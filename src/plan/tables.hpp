@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernels/tables.hpp"
+#include "plan/light_choice.hpp"
 #include "plan/tree.hpp"
 #include "scene/scene.hpp"
 
@@ -25,6 +26,13 @@ public:
     Tables(const Scene& scene, const CameraFrame& frame, const std::vector<std::uint32_t>& order, Tree tree);
     Tables(const Tables&) = delete;
     Tables& operator=(const Tables&) = delete;
+
+    /// Makes chosen_lights(area) what a vertex chooses one light from, by the scene's light choice. With area lights,
+    /// rays that run into one learn how probable its choice is.
+    void choose_lights(const Scene& scene, bool area);
+    /// The lights for vertices that sample area lights as well as point lights, or point lights alone. No cells unless
+    /// choose_lights was called for them.
+    const kernels::LightTable<Real>& chosen_lights(bool area) const { return chosen_lights_[area ? 1 : 0].table; }
 
     kernels::CameraTable<Real> camera{};
     kernels::SphereTable<Real> spheres;
@@ -48,6 +56,7 @@ private:
     std::array<std::vector<Word>, 2> sphere_words_;      // surface light
     std::array<std::vector<Real>, 8> material_columns_;  // rho, tau, eta, roughness
     std::array<std::vector<Real>, 3> emission_columns_;
+    std::array<ChosenLights<Real>, 2> chosen_lights_;  // without area lights, with them
 };
 
 extern template class Tables<float>;

@@ -56,6 +56,8 @@ enum class Integrator : std::uint8_t { path_tracing, whitted, depth };
 enum class Estimator : std::uint8_t { uniform, stratified, sobol };
 enum class Transport : std::uint8_t { naive, nee, mis };
 enum class LightSampling : std::uint8_t { area, cone };
+/// Which lights a vertex of a path samples: all of them, or one, all alike or in proportion to their powers.
+enum class LightChoice : std::uint8_t { all, uniform, power };
 /// The kernels' number type (IEEE 754); automatic: float where it is good enough for the scene.
 enum class Precision : std::uint8_t { automatic, binary32, binary64 };
 
@@ -70,6 +72,7 @@ struct RenderSettings {
     Estimator estimator = Estimator::stratified;
     Transport transport = Transport::mis;
     LightSampling light_sampling = LightSampling::cone;
+    LightChoice light_choice = LightChoice::all;
     bool roulette = true;
     /// So many scattering events of a path are never followed by roulette. Measured (bench/TRADEOFF.md): with 0 its
     /// noise costs a quarter to two thirds of the efficiency of scenes whose paths are six events long.

@@ -73,6 +73,12 @@ RenderSettings read_settings(const Node& renderer, const std::filesystem::path& 
             "light sampling", {{"area", LightSampling::area}, {"cone", LightSampling::cone}});
         settings.light_sampling = sampling.value_or(settings.light_sampling);
     }
+    if (fields.has("light choice")) {
+        const auto choice = fields.choice<LightChoice>(
+            "light choice",
+            {{"all", LightChoice::all}, {"uniform", LightChoice::uniform}, {"power", LightChoice::power}});
+        settings.light_choice = choice.value_or(settings.light_choice);
+    }
     read_roulette(fields, settings);
     if (fields.has("roulette from")) settings.roulette_from = fields.integer("roulette from", 0, any).value_or(0);
     if (fields.has("tonemap")) {

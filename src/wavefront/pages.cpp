@@ -115,19 +115,20 @@ void scatter(Wave<Real>& w, Scattering kind, const Runs& runs, std::uint32_t bou
     w.stages.scatter[k](scatter_context(w, bounce), runs.run[k], w.storage.rays, w.storage.hits, w.storage.lobes);
 }
 
-/// Shadow queue -> radiance.
+/// Shadow queue -> radiance. `target` is the light's sphere where the queue does not know it.
 template <class Real>
-void shadow(Wave<Real>& w, std::uint32_t rays, std::uint32_t light_sphere, std::uint32_t bounce) {
+void shadow(Wave<Real>& w, std::uint32_t rays, std::uint32_t target, std::uint32_t bounce) {
     if (rays == 0) return;
     const bool tree = w.plan.needs().tree;
     const std::uint32_t bytes = record_bytes(w.storage.shadows) + 2 * row<Real>;
     const StageTimer timer(w.counters, Stage::shadow, bounce, {rays, bytes, tree ? 0 : w.stages.sphere_step});
     const auto stage = tree ? w.stages.shadow_tree : bunched(w) ? w.stages.shadow_coherent : w.stages.shadow;
-    stage(w.tables.spheres, w.storage.shadows, rays, light_sphere, w.storage.slots);
+    stage(w.tables.spheres, w.storage.shadows, rays, target, w.storage.slots);
     w.counters.shadow_rays += rays;
 }
 
-/// Vertices -> shadow queue -> radiance, for every light and every run that samples it.
+/// Vertices -> shadow queue -> radiance, for every run that samples lights: towards each of them, or each vertex
+/// towards the one it chooses.
 template <class Real>
 void connect(Wave<Real>& w, const Runs& runs, std::uint32_t bounce) {
     const Plan& plan = w.plan;
@@ -137,30 +138,30 @@ void connect(Wave<Real>& w, const Runs& runs, std::uint32_t bounce) {
     const std::uint32_t bytes = 2 * vector3<Real> + 4 * word<Real> + record_bytes(s.shadows);
     for (std::uint32_t k = 0; k < kernels::scattering_count; ++k) {
         const auto run = runs.run[k];
-        if (run.count == 0) continue;
-        const StageLoad load{run.count, bytes, w.stages.step, true};
+        const bool points = (plan.needs().connect_point >> k & 1u) != 0;
+        const bool areas = (plan.needs().connect_area >> k & 1u) != 0;
+        if (run.count == 0 || !(points || areas)) continue;
         const auto response = static_cast<Scattering>(k) == Scattering::diffuse ? Response::diffuse : Response::glossy;
         const auto r = static_cast<std::size_t>(response);
-        if ((plan.needs().connect_point >> k & 1u) != 0) {
-            for (const auto& light : w.tables.point_lights) {
-                std::uint32_t rays = 0;
-                {
-                    const StageTimer timer(w.counters, Stage::shade, bounce, load);
-                    rays = w.stages.connect_point[r](context, light, run, s.rays, s.lobes, s.shadows);
-                }
-                shadow(w, rays, kernels::no_sphere, bounce);
+        const auto strategy = static_cast<std::size_t>(light_strategy(w));
+        const auto aim = [&](auto stage, const auto& light, std::uint32_t target) {
+            std::uint32_t rays = 0;
+            {
+                const StageTimer timer(w.counters, Stage::shade, bounce, {run.count, bytes, w.stages.step, true});
+                rays = stage(context, light, run, s.rays, s.lobes, s.shadows);
             }
+            shadow(w, rays, target, bounce);
+        };
+        if (plan.needs().one_light) {
+            aim(w.stages.connect_chosen[strategy][r], w.tables.chosen_lights(areas), kernels::no_sphere);
+            continue;
         }
-        if ((plan.needs().connect_area >> k & 1u) != 0) {
-            const auto sample = w.stages.connect_area[static_cast<std::size_t>(light_strategy(w))][r];
+        if (points)
+            for (const auto& light : w.tables.point_lights) aim(w.stages.connect_point[r], light, kernels::no_sphere);
+        if (areas) {
             context.light = 0;
             for (const auto& light : w.tables.area_lights) {
-                std::uint32_t rays = 0;
-                {
-                    const StageTimer timer(w.counters, Stage::shade, bounce, load);
-                    rays = sample(context, light, run, s.rays, s.lobes, s.shadows);
-                }
-                shadow(w, rays, light.sphere, bounce);
+                aim(w.stages.connect_area[strategy][r], light, light.sphere);
                 ++context.light;
             }
         }

@@ -65,7 +65,16 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
         carver.queue(sorted_hits, capacity);
     }
     if (needs.lobes) carver.queue(lobes, capacity);
-    if (shades && (needs.connect_point | needs.connect_area) != 0) carver.queue(shadows, capacity);
+    if (shades && (needs.connect_point | needs.connect_area) != 0) {
+        const bool targets = needs.one_light && needs.connect_area != 0;
+        kernels::ShadowQueue<Real>::each_field([&](const char*, auto member) {
+            using Queue = kernels::ShadowQueue<Real>;
+            if constexpr (std::is_same_v<decltype(member), typename Queue::Word * Queue::*>) {
+                if (member == &Queue::target && !targets) return;
+            }
+            carver.field(shadows.*member, capacity);
+        });
+    }
     if (needs.branches) {
         branches.slots = slot_count;
         branches.levels = depth;

@@ -93,6 +93,19 @@ TEST(Options, LightSamplingAndEstimatorChangeTheSamples) {
               image_of("tests/diffuse_area.json", {"--estimator", "stratified"}));
 }
 
+TEST(Options, LightChoiceAimsAtOneLight) {
+    const auto rays = [](Arguments options) {
+        options.insert(options.end(), {"--size", "16x16", "--spp", "4"});
+        return stats_of("bench/many_lights.json", options)["rays"]["shadow"].get<int>();
+    };
+    EXPECT_EQ(rays({"--light-choice", "all"}), rays({}));
+    EXPECT_LT(10 * rays({"--light-choice", "uniform"}), rays({}));
+    EXPECT_THAT(image_of("tests/diffuse_area.json", {"--light-choice", "power"}, "x.exr"),
+                HasSubstr("--light-choice power"));
+    EXPECT_EQ(image_of("tests/diffuse_area.json", {"--light-choice", "power"}), image_of("tests/diffuse_area.json", {}))
+        << "it has one light";
+}
+
 TEST(Options, RouletteEndsPathsEarly) {
     const auto rays = [](const char* roulette) {
         return stats_of("tests/diffuse_area.json", {"--depth", "20", "--roulette", roulette})["rays"]["closest"]

@@ -46,6 +46,7 @@ TEST(Usage, RenderHelpNamesEveryOptionItsDefaultAndAnExample) {
                                "--estimator uniform|stratified|sobol",
                                "--transport naive|nee|mis",
                                "--light-sampling area|cone",
+                               "--light-choice all|uniform|power",
                                "--roulette on|off",
                                "--roulette-from N",
                                "--tonemap sigmoid|linear|none",
@@ -131,6 +132,7 @@ TEST(Usage, ChoicesNameWhatThereIs) {
     EXPECT_THAT(refusal_with({"--estimator", "halton"}), HasSubstr("uniform|stratified|sobol"));
     EXPECT_THAT(refusal_with({"--transport", "bdpt"}), HasSubstr("naive|nee|mis"));
     EXPECT_THAT(refusal_with({"--light-sampling", "uniform"}), HasSubstr("area|cone"));
+    EXPECT_THAT(refusal_with({"--light-choice", "one"}), HasSubstr("all|uniform|power"));
     EXPECT_THAT(refusal_with({"--roulette", "yes"}), HasSubstr("on|off"));
     EXPECT_THAT(refusal_with({"--tonemap", "aces"}), HasSubstr("sigmoid|linear|none"));
     EXPECT_THAT(refusal_with({"--isa", "avx9000"}), HasSubstr("supports: scalar"));

@@ -74,8 +74,9 @@ protected:
             } else if (in.emission.has_emitters && (in.spheres.surface[id] & kernels::surface_emits) != 0) {
                 double weight = 1;
                 if (rays->pdf != nullptr && rays->pdf[i] < infinity) {
-                    const double density = light_density(strategy, origin_of(*rays, i), direction_of(*rays, i),
-                                                         in.centre(id), in.radius(id));
+                    double density = light_density(strategy, origin_of(*rays, i), direction_of(*rays, i), in.centre(id),
+                                                   in.radius(id));
+                    if (in.emission.probability != nullptr) density *= in.emission.probability[in.spheres.light[id]];
                     weight = rays->pdf[i] / (rays->pdf[i] + density);
                 }
                 const std::uint32_t light = in.spheres.light[id];
@@ -102,6 +103,22 @@ TEST_P(EmissionTest, EmittersAreWeighedAgainstLightSampling) {
             expect_agrees(world, wave_of(world, count), strategy);
     expect_agrees(world, wave_of(world, 2001), LightStrategy::cone);
     expect_agrees(world, wave_of(world, 2001), LightStrategy::area);
+}
+
+// Where vertices sample one light of several, a light competes in proportion to how often it is chosen.
+TEST_P(EmissionTest, WhatIsChosenRarelyLeavesMoreToScattering) {
+    World chosen({{glm::dvec3(0, 0, 0), 1, 0, 0},
+                  {glm::dvec3(4, 0, 0), 0.5, 0, -1},
+                  {glm::dvec3(0, 5, 0), 2, 0, 1},
+                  {glm::dvec3(0, 0, 9), 0.01, 0, 2}},
+                 {Surface{}}, {{1, 2, 3}, {0.5, 0, 7}, {100, 200, 50}});
+    std::vector<float> probability(3 + kernels::widest, std::numeric_limits<float>::quiet_NaN());
+    probability[0] = 0.625f, probability[1] = 0.25f, probability[2] = 0.125f;
+    chosen.emission.probability = probability.data();
+    for (const std::uint32_t count : awkward_counts)
+        for (const auto strategy : {LightStrategy::area, LightStrategy::cone})
+            expect_agrees(chosen, wave_of(chosen, count), strategy);
+    expect_agrees(chosen, wave_of(chosen, 2001), LightStrategy::cone);
 }
 
 TEST_P(EmissionTest, WithoutCompetitionEmissionCountsWhole) {

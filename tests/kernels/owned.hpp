@@ -102,8 +102,14 @@ private:
 using Rays = Owned<kernels::RayQueue<float>>;
 using Hits = Owned<kernels::HitQueue<float>>;
 using Lobes = Owned<kernels::LobeQueue<float>>;
-using Shadows = Owned<kernels::ShadowQueue<float>>;
 using Slots = Owned<kernels::SlotTable<float>>;
+
+/// Without the column of targets, as in most plans, unless it is asked for.
+struct Shadows : Owned<kernels::ShadowQueue<float>> {
+    struct WithTargets {};
+    explicit Shadows(std::size_t capacity) : Owned(capacity, {"target"}) {}
+    Shadows(std::size_t capacity, WithTargets) : Owned(capacity) {}
+};
 
 inline kernels::RayQueue<float> from(const Rays& rays, std::uint32_t first) {
     kernels::RayQueue<float> part = *rays;

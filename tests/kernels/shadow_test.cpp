@@ -27,6 +27,30 @@ protected:
         return slots;
     }
 
+    static inline const std::vector<std::uint32_t> counts = [] {
+        std::vector<std::uint32_t> all = awkward_counts;
+        all.push_back(5001);
+        return all;
+    }();
+    /// Segments in a world of 20 balls.
+    static void put_some(const Shadows& queue, std::uint32_t count, const World& world, Numbers& random) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t k = random.below(20);
+            const glm::dvec3 n = random.direction();
+            glm::dvec3 d = random.direction();
+            if (glm::dot(d, n) < 0) d = -d;
+            // From free space, outward from a sphere, and into one.
+            std::uint32_t left = no_sphere;
+            glm::dvec3 o = random.point(6);
+            if (i % 3 != 0) o = world.centre(k) + world.radius(k) * n, left = k;
+            if (i % 3 == 2) d = -d, left = k | inside_bit;
+            // Two segments per slot here and there; distances from nearby to infinite.
+            const std::uint32_t slot = i % 10 == 9 ? i - 1 : i;
+            const double t_max = i % 7 == 0 ? std::numeric_limits<double>::infinity() : random.scale(0.01, 20);
+            put(queue, i, o, d, t_max, left, random.colour(), slot);
+        }
+    }
+
     /// Compares all segments that rounding does not decide; returns how many were lit.
     std::uint32_t expect_agrees(const World& world, const Shadows& queue, std::uint32_t count,
                                 std::uint32_t skip) const {
@@ -43,7 +67,8 @@ protected:
             const std::uint32_t slot = queue->slot[i];
             const Meeting met =
                 meet(world, get3(queue->ox, queue->oy, queue->oz, i), get3(queue->dx, queue->dy, queue->dz, i),
-                     queue->left[i], 0, 1 / static_cast<double>(queue->inverse_t_max[i]), skip);
+                     queue->left[i], 0, 1 / static_cast<double>(queue->inverse_t_max[i]),
+                     queue->target != nullptr ? queue->target[i] : skip);
             if (met.open) unsure[slot] = true, ++open;
             if (met.id == no_sphere) wanted[slot] += get3(queue->r, queue->g, queue->b, i), ++lit;
         }
@@ -73,31 +98,45 @@ std::vector<Ball> some_balls() {
 TEST_P(ShadowTest, SegmentsThroughAWorldOfSpheres) {
     const World world(some_balls());
     for (const std::uint32_t skip : {no_sphere, 0u, 7u}) {
-        std::vector<std::uint32_t> counts = awkward_counts;
-        counts.push_back(5001);
         for (const std::uint32_t count : counts) {
             Numbers random(count + skip);
             Shadows queue(kernels::round_up(count) + kernels::widest);
-            for (std::uint32_t i = 0; i < count; ++i) {
-                const std::uint32_t k = random.below(20);
-                const glm::dvec3 n = random.direction();
-                glm::dvec3 d = random.direction();
-                if (glm::dot(d, n) < 0) d = -d;
-                // From free space, outward from a sphere, and into one.
-                std::uint32_t left = no_sphere;
-                glm::dvec3 o = random.point(6);
-                if (i % 3 != 0) o = world.centre(k) + world.radius(k) * n, left = k;
-                if (i % 3 == 2) d = -d, left = k | inside_bit;
-                // Two segments per slot here and there; distances from nearby to infinite.
-                const std::uint32_t slot = i % 10 == 9 ? i - 1 : i;
-                const double t_max = i % 7 == 0 ? std::numeric_limits<double>::infinity() : random.scale(0.01, 20);
-                put(queue, i, o, d, t_max, left, random.colour(), slot);
-            }
+            put_some(queue, count, world, random);
             const std::uint32_t lit = expect_agrees(world, queue, count, skip);
             if (count == 5001) {
                 EXPECT_GT(lit, 500u);
                 EXPECT_LT(lit, 4500u);
             }
+        }
+    }
+}
+
+// With a column of targets what is said for all of them does not count.
+TEST_P(ShadowTest, EverySegmentMayEndOnASphereOfItsOwn) {
+    const World world(some_balls());
+    for (const std::uint32_t count : counts) {
+        Numbers random(count);
+        Shadows queue(kernels::round_up(count) + kernels::widest, Shadows::WithTargets{});
+        put_some(queue, count, world, random);
+        std::uint32_t on_another = 0, on_its_own = 0;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t own = queue->left[i] & no_sphere;
+            const auto first_met = [&](std::uint32_t target) {
+                return meet(world, get3(queue->ox, queue->oy, queue->oz, i), get3(queue->dx, queue->dy, queue->dz, i),
+                            queue->left[i], 0, 1 / static_cast<double>(queue->inverse_t_max[i]), target)
+                           .id &
+                       no_sphere;
+            };
+            const std::uint32_t blocker = first_met(no_sphere);
+            queue->target[i] = i % 4 == 0 ? no_sphere : i % 4 == 1 ? random.below(20) : blocker;
+            // Those that nothing but their target would have blocked.
+            if (blocker != no_sphere && first_met(queue->target[i]) == no_sphere)
+                ++(queue->target[i] == own ? on_its_own : on_another);
+        }
+        expect_agrees(world, queue, count, 3);
+        if (count == 5001) {
+            EXPECT_GT(on_another, 50u);
+            EXPECT_GT(on_its_own, 50u) << "from the inner side of the light itself";
         }
     }
 }

@@ -180,7 +180,7 @@ TEST_P(TreeTest, SegmentsInColumnsAndOneByOne) {
 }
 
 TEST_P(TreeTest, ShadowsWhatTheLoopShadows) {
-    constexpr std::uint32_t count = 2003;
+    constexpr std::uint32_t count = 2003, own_target = ~0u;
     for (const TreeWorld& hard : hard_worlds()) {
         SCOPED_TRACE(hard.name);
         const Planted planted(hard.balls);
@@ -195,18 +195,28 @@ TEST_P(TreeTest, ShadowsWhatTheLoopShadows) {
             queue->left[i] = rays->left[i];
             queue->slot[i] = i / 2;
         }
-        for (const std::uint32_t skip : {no_sphere, 0u, 40u}) {
+        const auto size = static_cast<std::uint32_t>(hard.balls.size());
+        Shadows with_targets(kernels::round_up(count) + kernels::widest, Shadows::WithTargets{});
+        kernels::ShadowQueue<float>::each_field([&](const char*, auto field) {
+            if ((*queue).*field != nullptr) std::copy_n((*queue).*field, count, (*with_targets).*field);
+        });
+        for (std::uint32_t i = 0; i < count; ++i)
+            with_targets->target[i] = i % 3 == 0   ? queue->left[i] & no_sphere
+                                      : i % 3 == 1 ? no_sphere
+                                                   : random.below(size);
+        for (const std::uint32_t skip : {no_sphere, 0u, 40u, own_target}) {
+            const auto& shadows = skip == own_target ? with_targets : queue;
             Slots slots(kernels::round_up(count) + kernels::widest);
             for (std::uint32_t i = 0; i < 4 * count; ++i) slots->radiance[i] = 0;
             const Slots before = slots;
             Slots by_loop = slots, by_scalar = slots;
-            stages.shadow_tree(planted->spheres, *queue, count, skip, *slots);
+            stages.shadow_tree(planted->spheres, *shadows, count, skip, *slots);
             EXPECT_TRUE(slots.untouched_but(before, 0, count));
             // The loop has the same maths and no tree: it must agree in the last bit.
-            stages.shadow(planted.bare(), *queue, count, skip, *by_loop);
+            stages.shadow(planted.bare(), *shadows, count, skip, *by_loop);
             if (exact()) {
                 EXPECT_TRUE(slots.same_as(by_loop, 0, count));
-                scalar.shadow_tree(planted->spheres, *queue, count, skip, *by_scalar);
+                scalar.shadow_tree(planted->spheres, *shadows, count, skip, *by_scalar);
                 EXPECT_TRUE(slots.same_as(by_scalar, 0, count));
             }
         }

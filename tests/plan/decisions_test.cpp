@@ -76,6 +76,7 @@ TEST(Decisions, SayWhatTheNeedsSay) {
         EXPECT_EQ(decision(all, "shade: background").runs, needs.background);
         EXPECT_EQ(decision(all, "shadow: point lights").runs, needs.connect_point != 0);
         EXPECT_EQ(decision(all, "shadow: area lights").runs, needs.connect_area != 0);
+        EXPECT_EQ(decision(all, "shadow: light choice").runs, needs.one_light);
         EXPECT_EQ(decision(all, "roulette: play").runs, needs.roulette);
         EXPECT_EQ(decision(all, "branches").runs, needs.branches);
     });
@@ -106,6 +107,25 @@ TEST(Decisions, TellWhyAreaLightsAreNotSampled) {
     Scene shiny = world({specular});
     add(shiny, specular).emission = dvec3{1};
     EXPECT_EQ(reason(shiny), "no surface samples them");
+}
+
+TEST(Decisions, TellHowLightsAreChosen) {
+    Scene scene = world({diffuse});
+    const auto reason = [&](LightChoice choice) {
+        scene.settings.light_choice = choice;
+        const Plan plan(scene);
+        EXPECT_EQ(decision(plan.decisions(), "shadow: light choice").runs, plan.needs().one_light);
+        return decision(plan.decisions(), "shadow: light choice").reason;
+    };
+    EXPECT_EQ(reason(LightChoice::power), "no light is sampled");
+    add_area_light(scene);
+    EXPECT_EQ(reason(LightChoice::power), "there is one light to sample");
+    add_point_light(scene);
+    EXPECT_EQ(reason(LightChoice::all), "all 2 lights from every vertex");
+    EXPECT_EQ(reason(LightChoice::uniform), "one of 2 lights, all alike");
+    EXPECT_EQ(reason(LightChoice::power), "one of 2 lights by power");
+    scene.settings.integrator = Integrator::whitted;
+    EXPECT_EQ(reason(LightChoice::power), "Whitted ray tracing takes all lights");
 }
 
 TEST(Decisions, TellFromWhereRouletteIsPlayed) {

@@ -104,6 +104,19 @@ TEST(SmallScenes, RouletteIsAWordOrABoolean) {
     }
 }
 
+TEST(SmallScenes, LightChoiceIsAWord) {
+    EXPECT_EQ(load("tests/diffuse_point").settings.light_choice, LightChoice::all);
+    for (const auto& [word, choice] :
+         {std::pair{"all", LightChoice::all}, {"uniform", LightChoice::uniform}, {"power", LightChoice::power}}) {
+        Json json = world();
+        json["scene"]["renderer"]["light choice"] = word;
+        const ReadResult result = read(json);
+        ASSERT_TRUE(result.scene.has_value()) << listing(result);
+        EXPECT_EQ(result.scene->settings.light_choice, choice);
+        EXPECT_TRUE(result.diagnostics.empty()) << listing(result);
+    }
+}
+
 TEST(SmallScenes, RouletteStartsWhereTheSceneSays) {
     EXPECT_EQ(load("tests/diffuse_point").settings.roulette_from, 8u);
     Json json = world();

@@ -36,6 +36,12 @@ std::vector<Scene> scenes() {
     all.back().settings.estimator = Estimator::sobol;
     all.push_back(crowd());
     all.push_back(crowd(Integrator::whitted));
+    // One light of several at a vertex, through the loop and through the tree.
+    all.push_back(all.front());
+    all.back().settings.light_choice = LightChoice::power;
+    all.push_back(crowd());
+    all.back().settings.light_choice = LightChoice::uniform;
+    all.back().settings.transport = Transport::nee;
     return all;
 }
 
@@ -74,7 +80,7 @@ TEST_P(SameBytes, OnInstructionSetsThatRoundAlike) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SameBytes, testing::Range<std::size_t>(0, 10));
+INSTANTIATE_TEST_SUITE_P(Scenes, SameBytes, testing::Range<std::size_t>(0, 12));
 
 // Rays, too, are the same rays.
 TEST(Counters, AreTheSameForAnyWaveSizeAndNumberOfThreads) {

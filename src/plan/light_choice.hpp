@@ -1,0 +1,46 @@
+// Which light a vertex samples where it samples one of several: the probabilities, and the columns the kernels read.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kernels/tables.hpp"
+#include "scene/scene.hpp"
+
+namespace orrery {
+
+/// Weights of the lights that are switched on, point lights first, then area lights (without them if `area` is false).
+///
+/// By power: three quarters of the choices go by emitted power, the sum of the channels of 4 pi I or of 4 pi^2 r^2 L,
+/// and one quarter goes round. What is near may be lit by a weak light alone, whose share beside a strong one's could
+/// be as small as it likes; so its variance is four times that of `uniform` at worst, and it is found at all.
+/// (Measured: nothing to tell between none and 0.3 on 64 lamps of various powers, but on the showcase, whose small
+/// lamps stand close, the squared error falls by 0.26 at a tenth, by 0.4 at three.)
+std::vector<double> light_weights(const Scene& scene, LightChoice rule, bool area);
+
+/// Owns what its table points to, moves included.
+template <class Real>
+class ChosenLights {
+public:
+    /// None: the table has no cells.
+    ChosenLights() = default;
+    /// One weight for every point light and, behind them, every area light. Throws std::invalid_argument for more than
+    /// 2^24 lights.
+    ChosenLights(const std::vector<double>& weights, const std::vector<kernels::PointLight<Real>>& points,
+                 const std::vector<kernels::AreaLight<Real>>& areas);
+    ChosenLights(ChosenLights&&) = default;
+    ChosenLights& operator=(ChosenLights&&) = default;
+
+    kernels::LightTable<Real> table;
+    std::vector<Real> area_probability;  ///< of choosing each area light, padded to whole vectors
+
+private:
+    std::vector<Real> share_;
+    std::vector<kernels::WordOf<Real>> other_, sphere_;
+    std::array<std::vector<Real>, 8> columns_;  // position radius colour 1/probability
+};
+
+extern template class ChosenLights<float>;
+extern template class ChosenLights<double>;
+
+}  // namespace orrery
