@@ -63,8 +63,8 @@ ORRERY_INLINE Vec3<typename V::F> weight_of(const MaterialTable<typename V::Real
 
 template <class V, Scattering kind>
 ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<typename V::Real>& context, const Vertex<V>& vertex,
-                                      const Vec3<typename V::F>& direction, const RayQueue<typename V::Real>& rays,
-                                      std::uint32_t i, const typename V::U& slot) {
+                                      const Vec3<typename V::F>& direction,
+                                      const RandomNumbers<typename V::F>& random) {
     using F = typename V::F;
     using U = typename V::U;
     using Real = typename V::Real;
@@ -77,8 +77,6 @@ ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<typename V::Real>& co
         out.pdf = infinity;
         return out;
     }
-    const auto random = random_for<V, dimensions_of(kind)>(
-        context.slots, rays, i, {context.seed, Dimension::scattering, 0}, context.bounce, slot);
     if constexpr (kind == Scattering::diffuse) {
         const auto sample = sample_cosine<V>(vertex.normal, random.x, random.y);
         out.direction = sample.direction;
@@ -120,15 +118,23 @@ template <class V, Scattering kind>
 void scatter(const ScatterContext<typename V::Real>& context, Range run, const RayQueue<typename V::Real>& rays,
              const HitQueue<typename V::Real>& hits, const LobeQueue<typename V::Real>& lobes) {
     using F = typename V::F;
+    using U = typename V::U;
     const Vec3<F> none{F(0), F(0), F(0)};
     if constexpr (dimensions_of(kind) > 0)
         draw<V, dimensions_of(kind)>(context.slots, rays, run, {context.seed, Dimension::scattering, 0},
                                      context.bounce);
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
+        // Ahead of the vertex, which needs none of them: the processor works on both at once.
+        RandomNumbers<F> random{};
+        if constexpr (dimensions_of(kind) > 0) {
+            const U slot = choose(first_lanes<V>(run.count - n), load<U>(rays.slot + i), U(0u));
+            random = random_for<V, dimensions_of(kind)>(context.slots, rays, i,
+                                                        {context.seed, Dimension::scattering, 0}, context.bounce, slot);
+        }
         const auto in = arriving<V>(context.spheres, rays, hits, i, run.count - n);
         save3<V>(rays.ox + i, rays.oy + i, rays.oz + i, in.vertex.position);
-        const auto out = scatter_at<V, kind>(context, in.vertex, in.direction, rays, i, in.slot);
+        const auto out = scatter_at<V, kind>(context, in.vertex, in.direction, random);
         save3<V>(rays.dx + i, rays.dy + i, rays.dz + i, out.direction);
         save(rays.left + i, in.vertex.sphere | out.side);
         if (rays.pdf != nullptr) save(rays.pdf + i, out.pdf);
