@@ -36,8 +36,8 @@ struct RayQueue {
     Real* eta_scale;     ///< product of the (eta_i / eta_t)^2 inside the throughput. Null without dielectrics.
     Word* left;          ///< sphere the ray leaves, inside_bit set when it runs inward; no_sphere from the camera
     Word* slot;          ///< which (pixel, sample) of the wave
-    Word* pixel;         ///< the slot's pixel and sample, which randomness is keyed with: carried along, because moving
-    Word* sample;        ///< two words with the ray costs less than gathering them by slot at a vertex's four uses
+    Word* pixel;   ///< the slot's pixel and sample as they are there, keys of randomness: carried along, as moving
+    Word* sample;  ///< two words with the ray costs less than gathering them by slot at a vertex's four uses
 
     template <class Visit>
     ORRERY_INLINE static void each_field(Visit&& visit) {

@@ -75,7 +75,8 @@ ORRERY_INLINE RandomNumbers<typename V::F> random_block(const RandomKey& key, co
     return {unit_interval(r.x), unit_interval(r.y), unit_interval(r.z), unit_interval(r.w)};
 }
 
-/// Points of Sobol's sequences: x and y are one, z and w another. `sample` has its bits reversed.
+/// Points of Sobol's sequences: x and y are one, z and w another, each pair spread evenly, and paired with the other by
+/// chance. `sample` has its bits reversed.
 template <class V>
 ORRERY_INLINE RandomNumbers<typename V::F> sobol_block(const RandomKey& key, const typename V::U& pixel,
                                                        const typename V::U& sample, const typename V::U& vertex) {

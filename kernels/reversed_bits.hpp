@@ -1,4 +1,4 @@
-// The bits of a word in reverse order, for which no instruction set before AVX-512 GFNI has an instruction.
+// The bits of a word in reverse order, for which x86 has no instruction.
 #pragma once
 
 #include "kernels/lane_words.hpp"

@@ -8,16 +8,16 @@
 // two dimensions make one of any number.
 //
 // A pixel has two sequences, scrambled apart: samples of even number run through one, of odd number through the other.
-// Their difference tells the error of their sum without bias (film/contrasts.hpp), which no single sequence can.
+// Of equally many of both the difference tells the error of the sum without bias (film/contrasts.hpp), which no single
+// sequence can.
 #pragma once
 
 #include "kernels/reversed_bits.hpp"
 
 namespace orrery::kernels {
 
-/// A bijection of 32 bits for each seed: whether a bit flips depends on those below it and the seed alone. Laine and
-/// Karras's, with the constants and the second use of the seed that Nathan Vegdahl searched for ("Building a Better LK
-/// Hash", 2021): the flips of the first have visible patterns in the lowest bits.
+/// A bijection of 32 bits for each seed: whether a bit flips depends on those below it and the seed alone. A hash of
+/// Laine and Karras's kind, by Nathan Vegdahl ("Building a Better LK Hash", 2021).
 template <class U>
 ORRERY_INLINE U flipped_by_lower(const U& word, const U& seed) {
     U x = word ^ multiply_words(word, U(0x3D20ADEAu));

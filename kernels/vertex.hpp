@@ -75,8 +75,9 @@ ORRERY_INLINE typename V::U vertex_number(const SlotTable<typename V::Real>& slo
 
 /// What a stage's rays are known by to randomness: those of a queue, or of a wave that has no rays yet.
 template <class Real>
-struct Drawn {
-    const WordOf<Real>*pixel, *sample;
+struct RayKeys {
+    const WordOf<Real>* pixel;
+    const WordOf<Real>* sample;
     const WordOf<Real>* slot;  ///< null where all rays have the vertex number `bounce`
 };
 
@@ -84,7 +85,7 @@ struct Drawn {
 /// are points of Sobol's sequences. In that loop the drawing would cost every stage registers, points or not: 2 % of
 /// a render of independent samples.
 template <class V, int dimensions>
-[[gnu::noinline]] void draw_points(const SlotTable<typename V::Real>& slots, const Drawn<typename V::Real>& rays,
+[[gnu::noinline]] void draw_points(const SlotTable<typename V::Real>& slots, const RayKeys<typename V::Real>& rays,
                                    Range run, const RandomKey& key, std::uint32_t bounce) {
     using U = typename V::U;
     const auto& to = slots.points;

@@ -40,7 +40,8 @@ std::string verdict(const Outcome& outcome, const Effect& effect) {
         return option + fmt::format("never. It is {} less efficient on average, and nowhere better.\n",
                                     times(effect.mean.value));
     if (losses.empty())
-        return option + fmt::format("**better than the default** on {}, nowhere worse.\n", listed(gains));
+        return option + fmt::format("**better than {}** on {}, nowhere worse.\n",
+                                    choice.instead_of.empty() ? "the default" : choice.instead_of, listed(gains));
     return option + fmt::format("for {}. Not for {}. On average it is {} {} efficient.\n", listed(gains),
                                 listed(losses), times(effect.mean.value), effect.mean.value > 1 ? "more" : "less");
 }

@@ -43,6 +43,9 @@ Shot take(const Scene& scene, const Setup& setup, std::uint32_t strata, std::uin
     Scene copy = scene;
     copy.settings = setup.settings;
     copy.settings.samples = strata * strata;
+    // A sequence is even after powers of two of its points, and whoever chooses it chooses these.
+    if (setup.settings.estimator == Estimator::sobol)
+        copy.settings.samples = 1u << std::lround(std::log2(copy.settings.samples));
     copy.settings.seed = seed;
     const Plan plan(std::move(copy));
     RenderOptions options;
@@ -62,10 +65,7 @@ std::uint32_t strata_for(const Scene& scene, const Setup& setup, double processo
     std::uint32_t strata = 1;
     double seconds = take(scene, setup, strata, 0).seconds;
     while (seconds < processor_seconds / 16 && strata < 1024) seconds = take(scene, setup, strata *= 2, 0).seconds;
-    const double fit = std::max(1.0, strata * std::sqrt(processor_seconds / seconds));
-    // A sequence is even after powers of two of its points, and whoever chooses it chooses these.
-    if (setup.settings.estimator == Estimator::sobol) return 1u << std::lround(std::log2(fit));
-    return static_cast<std::uint32_t>(std::lround(fit));
+    return std::max(1u, static_cast<std::uint32_t>(std::lround(strata * std::sqrt(processor_seconds / seconds))));
 }
 
 std::vector<Level> levels_up_to(std::uint32_t last) {

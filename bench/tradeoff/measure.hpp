@@ -17,7 +17,7 @@ struct Shot {
     double samples = 0;  ///< per pixel, really taken
 };
 
-/// Renders with strata x strata samples per pixel on all threads.
+/// Renders with strata x strata samples per pixel on all threads; of Sobol's sequences with the next power of two.
 Shot take(const Scene& scene, const Setup& setup, std::uint32_t strata, std::uint32_t seed);
 
 /// How many strata, >= 1, take about so many seconds of processor time.
@@ -25,7 +25,7 @@ std::uint32_t strata_for(const Scene& scene, const Setup& setup, double processo
 
 /// All renders of one variant with one number of samples.
 struct Level {
-    std::uint32_t strata = 1;       ///< strata^2 samples are asked for, of every estimator
+    std::uint32_t strata = 1;       ///< strata^2 samples are asked for, or the power of two that is nearest
     double samples = 0;             ///< taken, per pixel
     std::vector<double> mrse = {};  ///< by render, against the reference; its own error not yet subtracted
     std::vector<double> seconds = {};

@@ -59,10 +59,11 @@ void add_image(CLI::App& app, Overrides& overrides) {
     add_option(app, "--size", "WxH", "Image size in pixels; the camera's view stays as it is" + scene,
                [&](const std::string& text) { overrides.size = parse_size(text); })
         ->group("Image");
-    add_number(
-        app, "--spp", "Image",
-        "Samples per pixel; more take longer and leave less noise. Stratified takes the square number below" + scene,
-        overrides.samples, 1, any);
+    add_number(app, "--spp", "Image",
+               "Samples per pixel; more take longer and leave less noise. Stratified takes the square number "
+               "below; sobol is at its best with powers of two" +
+                   scene,
+               overrides.samples, 1, any);
     add_number(app, "--seed", "Image",
                "Another seed is another noise; the same one, the same file (default: the scene's, else 0)",
                overrides.seed, 0, any);
@@ -97,10 +98,11 @@ void add_method(CLI::App& app, Overrides& overrides) {
     add_number(app, "--depth", "Method",
                "How often light may be scattered between lamp and eye; at most 20 for wrt (default: the scene's)",
                overrides.depth, 0, any);
-    add_choice(app, "--estimator", estimator_words,
-               "How a pixel's samples are spread: anyhow, one in each cell of a grid, or evenly in all they decide "
-               "(default: the scene's, else stratified)",
-               overrides.estimator);
+    add_choice(
+        app, "--estimator", estimator_words,
+        "How a pixel's samples are spread: anyhow, one in each cell of a grid, or evenly in every decision of a path "
+        "(default: the scene's, else stratified)",
+        overrides.estimator);
     add_choice(app, "--transport", transport_words,
                "How paths find area lights: by chance, by aiming at them, or by both, weighted (default: the scene's, "
                "else mis)",
@@ -115,7 +117,7 @@ void add_method(CLI::App& app, Overrides& overrides) {
     add_choice(app, "--roulette", switch_words, "End dim paths early, by lot (default: the scene's, else on)",
                overrides.roulette);
     add_number(app, "--roulette-from", "Method",
-               "Let every path scatter so often before its end is drawn for (default: the scene's, else 8)",
+               "So many scattering events of a path are never followed by roulette (default: the scene's, else 8)",
                overrides.roulette_from, 0, any);
 }
 

@@ -28,9 +28,8 @@ std::string samples_text(const Plan& plan, const Goal& goal) {
         return text + (goal.adaptive ? ", adaptive" : ", the same for all pixels");
     }
     const RenderSettings& settings = plan.settings();
-    if (settings.estimator != Estimator::stratified)
-        return fmt::format("{} per pixel, {}", plan.samples(), word_for(estimator_words, settings.estimator));
-    std::string text = fmt::format("{} per pixel, stratified {} x {}", plan.samples(), plan.strata(), plan.strata());
+    std::string text = fmt::format("{} per pixel, {}", plan.samples(), word_for(estimator_words, settings.estimator));
+    if (settings.estimator == Estimator::stratified) text += fmt::format(" {} x {}", plan.strata(), plan.strata());
     if (plan.samples() != settings.samples) text += fmt::format(" ({} asked)", settings.samples);
     return text;
 }
@@ -42,7 +41,7 @@ std::string method_text(const RenderSettings& s) {
     if (s.integrator == Integrator::path_tracing) {
         text += fmt::format(", transport {}, light choice {}, roulette {}", word_for(transport_words, s.transport),
                             word_for(light_choice_words, s.light_choice), word_for(switch_words, s.roulette));
-        if (s.roulette && s.roulette_from > 0) text += fmt::format(" from bounce {} on", s.roulette_from + 1);
+        if (s.roulette && s.roulette_from > 0) text += fmt::format(" after more than {} events", s.roulette_from);
     }
     return text + fmt::format(", light sampling {}", word_for(light_sampling_words, s.light_sampling));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace orrery {
 namespace {
@@ -13,26 +14,30 @@ struct Sums {
     std::uint64_t contrasts;
 };
 
-/// What `value` makes of four channels, channel by channel, squared or as part of one contrast. In the samples' own
-/// type: its rounding is theirs, and equal ones still leave exactly zero. Unless `checked`, one that is not finite
-/// spoils the sum.
-template <class Real, bool checked, Contrasting contrasting = Contrasting::many, class Value>
-inline void add_contrast(Sums& sum, Value value) {
-    Real contrast[4];
-    for (std::uint32_t c = 0; c < 4; ++c) contrast[c] = value(c);
-    if (checked && !std::isfinite(contrast[0] + contrast[1] + contrast[2])) return;
+/// A contrast, channel by channel, squared or as part of one: plus the samples of the first half, minus those of the
+/// second. In the samples' own type: its rounding is theirs, and equal ones still leave exactly zero. With `checked`,
+/// one with a sample that the film does not keep is left out.
+template <Contrasting contrasting, bool checked, class Real, std::size_t count>
+inline void add_contrast(Sums& sum, const Real* const (&samples)[count]) {
+    if (checked)
+        for (const Real* const sample : samples)
+            if (!Film::keeps(sample[0], sample[1], sample[2])) return;
     for (std::uint32_t c = 0; c < 4; ++c) {
-        const double d = contrast[c];
+        double d = 0;
+        if constexpr (count == 2) {
+            d = samples[0][c] - samples[1][c];
+        } else {
+            d = (samples[0][c] - samples[2][c]) - (samples[3][c] - samples[1][c]);
+        }
         sum.lane[c] += contrasting == Contrasting::one ? d : d * d;
     }
     ++sum.contrasts;
 }
 
 /// a - b of two visits to a row, cell by cell.
-template <bool checked, Contrasting contrasting, class Real>
+template <Contrasting contrasting, bool checked, class Real>
 inline void add_differences(Sums& sum, const Real* row, const Real* again, std::uint32_t columns) {
-    for (std::uint32_t i = 0; i < 4 * columns; i += 4)
-        add_contrast<Real, checked, contrasting>(sum, [&](std::uint32_t c) { return row[i + c] - again[i + c]; });
+    for (std::uint32_t i = 0; i < 4 * columns; i += 4) add_contrast<contrasting, checked>(sum, {row + i, again + i});
 }
 
 /// a - b - c + d of blocks side by side; in rows of odd length the last overlaps the one before.
@@ -41,8 +46,7 @@ inline void add_blocks(Sums& sum, const Real* row, const Real* next, std::uint32
     const auto add = [&](std::uint32_t x) {
         const Real* const upper = row + 4 * x;
         const Real* const lower = next + 4 * x;
-        add_contrast<Real, checked>(
-            sum, [&](std::uint32_t c) { return (upper[c] - upper[c + 4]) - (lower[c] - lower[c + 4]); });
+        add_contrast<Contrasting::many, checked>(sum, {upper, lower + 4, upper + 4, lower});
     };
     for (std::uint32_t x = 0; x + 2 <= columns; x += 2) add(x);
     if (columns % 2 == 1) add(columns - 2);
@@ -55,10 +59,10 @@ void add_run(Sums& sum, Contrasting contrasting, const Real* rgbx, std::uint32_t
     const std::size_t stride = std::size_t{4} * columns;
     if (twice && contrasting == Contrasting::one) {
         for (std::uint32_t row = 0; row < rows; row += 2, rgbx += 2 * stride)
-            add_differences<checked, Contrasting::one>(sum, rgbx, rgbx + stride, columns);
+            add_differences<Contrasting::one, checked>(sum, rgbx, rgbx + stride, columns);
     } else if (twice) {
         for (std::uint32_t row = 0; row < rows; row += 2, rgbx += 2 * stride)
-            add_differences<checked, Contrasting::many>(sum, rgbx, rgbx + stride, columns);
+            add_differences<Contrasting::many, checked>(sum, rgbx, rgbx + stride, columns);
     } else {
         for (std::uint32_t row = 0; row + 1 < rows; row += 2, rgbx += 2 * stride)
             add_blocks<checked>(sum, rgbx, rgbx + stride, columns);
@@ -119,7 +123,9 @@ void Contrasts<Real>::add_rows(Spread& spread, Contrasting contrasting, const Re
     const Sums before{{spread.sums.r, spread.sums.g, spread.sums.b, 0}, spread.contrasts};
     Sums sum = before;
     add_run<false>(sum, contrasting, rgbx, rows, columns_, twice_);
-    if (!std::isfinite(sum.lane[0] + sum.lane[1] + sum.lane[2])) {
+    // A sample that the film does not keep makes this no number, or in double at least very large.
+    constexpr double most = sizeof(Real) == 4 ? std::numeric_limits<double>::max() : 0x1p120;
+    if (!(std::abs(sum.lane[0]) + std::abs(sum.lane[1]) + std::abs(sum.lane[2]) <= most)) {
         sum = before;
         add_run<true>(sum, contrasting, rgbx, rows, columns_, twice_);
     }

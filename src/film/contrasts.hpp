@@ -5,23 +5,23 @@
 // contrasts without common samples this is the variance of the pixel's sum, whatever the samples' distributions are;
 // nothing is subtracted that could cancel, and equal samples give exactly zero.
 //
-// * Rows visited twice: a cell's two samples differ by nothing but chance, a - b. Exact; uniform samples are the case
-// of
-//   one cell.
-// * Rows visited once, the stratified estimator: no two samples have the same distribution, and the scatter of all of
-//   them counts what stratification has removed. Blocks of 2 x 2 cells give a - b - c + d, whose expectation vanishes
-//   where the radiance is f(x) + g(y): slopes, and edges along the grid. What an oblique edge leaves makes the estimate
-//   too large, never too small. Measured where edges are all the error there is (scene 2 at 64 x 64, 256 samples),
-//   true error over estimated, relative and RMSE, mean of 8 seeds:
+// Rows visited twice: a cell's two samples differ by nothing but chance, a - b. Exact. Uniform samples are the case of
+// one cell.
+//
+// Rows visited once, the stratified estimator: no two samples have the same distribution, and the scatter of all of
+// them counts what stratification has removed. Blocks of 2 x 2 cells give a - b - c + d, whose expectation vanishes
+// where the radiance is f(x) + g(y): slopes, and edges along the grid. What an oblique edge leaves makes the estimate
+// too large, never too small. Measured where edges are all the error there is (scene 2 at 64 x 64, 256 samples),
+// true error over estimated, relative and RMSE, mean of 8 seeds:
 //     2 x 2 blocks                              0.90  0.96
 //     second differences of three in a row      0.87  0.94
 //     neighbours in a row, collapsed in pairs   0.74  0.75
 //     scatter of all samples, unstratified      0.27  0.07
-//   With noise as the larger part (scene 8) all four are within 2 % for the relative error.
-// * Two sequences scrambled apart, sample by sample in turns, the Sobol' estimator: only their two sums are
-// independent,
-//   so that all samples of a pixel form a single contrast. It has no bias, and one degree of freedom: of a pixel it
-//   tells little, of an image as much as its pixels are many.
+// With noise as the larger part (scene 8) all four are within 2 % for the relative error.
+//
+// Two sequences scrambled apart, sample by sample in turns, the Sobol' estimator: only their two sums are independent,
+// so that all samples of a pixel form a single contrast. With as many samples of both it has no bias, and one degree of
+// freedom: of a pixel it tells little, and may be 0 by chance, of an image as much as its pixels are many.
 #pragma once
 
 #include <cstdint>

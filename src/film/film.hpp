@@ -65,7 +65,20 @@ public:
     std::size_t pixels() const { return pixels_.size(); }
     Contrasting contrasting() const { return contrasting_; }
 
-    /// Adds one sample to a pixel (index = y * width + x). A sample that is not finite, or that no float holds, never
+    /// Whether a sample may get in: it is finite, and floats hold it.
+    template <class Real>
+    static bool keeps(Real r, Real g, Real b) {
+        if constexpr (sizeof(Real) == 8) {
+            constexpr double largest = std::numeric_limits<float>::max();  // what comes out is floats
+            return std::abs(r) <= largest && std::abs(g) <= largest && std::abs(b) <= largest;
+        } else {
+            // One test for three channels: in double the sum of three floats cannot overflow, so it is finite exactly
+            // when all three are (inf - inf is NaN, which is not finite either).
+            return std::isfinite(double{r} + double{g} + double{b});
+        }
+    }
+
+    /// Adds one sample to a pixel (index = y * width + x). A sample that it does not keep never
     /// gets in. Returns false when it was dropped.
     bool add(std::size_t pixel, float r, float g, float b) {
         assert(pixel < pixels_.size());
@@ -105,19 +118,10 @@ private:
 
     template <class Real>
     static bool add_to(Pixel& sum, Real r, Real g, Real b) {
-        const double dr = r, dg = g, db = b;
-        if constexpr (sizeof(Real) == 8) {
-            // What comes out is floats.
-            constexpr double largest = std::numeric_limits<float>::max();
-            if (!(std::abs(r) <= largest && std::abs(g) <= largest && std::abs(b) <= largest)) return false;
-        } else {
-            // One test for three channels: in double the sum of three floats cannot overflow, so it is finite exactly
-            // when all three are (inf - inf is NaN, which is not finite either).
-            if (!std::isfinite(dr + dg + db)) return false;
-        }
-        sum.r += dr;
-        sum.g += dg;
-        sum.b += db;
+        if (!keeps(r, g, b)) return false;
+        sum.r += double{r};
+        sum.g += double{g};
+        sum.b += double{b};
         ++sum.samples;
         return true;
     }

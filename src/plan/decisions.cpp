@@ -35,7 +35,7 @@ std::vector<Decision> Plan::decisions() const {
     decide("generate: lens", n.lens,
            n.lens ? fmt::format("aperture {}", scene_.camera.aperture) : "the camera is a pinhole");
     decide("random numbers: points", n.points,
-           n.points ? "two Sobol' sequences for every decision of a pixel" : "samples are independent of each other");
+           n.points ? "two Sobol' sequences for every decision of a pixel" : "numbers are drawn independently");
     if (n.integrator == Integrator::depth) {
         decide("shade, shadow, roulette", false, "DEPTH stops after intersect");
         return list;

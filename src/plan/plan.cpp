@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 
 #include "plan/require_valid.hpp"
 
@@ -33,7 +34,16 @@ Plan::Plan(Scene scene) : scene_(std::move(scene)) {
 }
 
 std::uint32_t Plan::samples() const {
-    return settings().estimator == Estimator::stratified ? strata_ * strata_ : settings().samples;
+    const std::uint32_t asked = settings().samples;
+    switch (settings().estimator) {
+        case Estimator::uniform:
+            return asked;
+        case Estimator::stratified:
+            return strata_ * strata_;
+        case Estimator::sobol:
+            return asked > 1 ? asked - asked % 2 : 1;
+    }
+    throw std::invalid_argument("unknown estimator");
 }
 
 std::size_t Plan::sampled_lights() const {

@@ -61,9 +61,10 @@ public:
         return std::get<Tables<Real>>(tables_);
     }
 
-    /// Samples per pixel really taken: e * e with e = strata() when stratified.
+    /// Samples per pixel really taken: e * e with e = strata() when stratified; of sobol's two sequences as many each,
+    /// so that an odd number is rounded down, but for 1.
     std::uint32_t samples() const;
-    /// Cells per pixel side: floor(sqrt(samples)) when stratified, 1 when uniform.
+    /// Cells per pixel side: floor(sqrt(samples)) when stratified, else 1.
     std::uint32_t strata() const { return strata_; }
     /// Half the image plane at distance 1: x in [-half_width, half_width], y likewise.
     double half_width() const { return frame_.half_width; }

@@ -74,8 +74,8 @@ struct RenderSettings {
     LightSampling light_sampling = LightSampling::cone;
     LightChoice light_choice = LightChoice::all;
     bool roulette = true;
-    /// So many scattering events of a path are never followed by roulette. Measured (bench/TRADEOFF.md): with 0 its
-    /// noise costs a quarter to two thirds of the efficiency of scenes whose paths are six events long.
+    /// So many scattering events of a path are never followed by roulette: played from the first on it costs more noise
+    /// than it saves time (bench/TRADEOFF.md).
     std::uint32_t roulette_from = 8;
     /// Empty: the integrator's own (sigmoid for radiance; a DEPTH image is already in [0, 1] and is left alone).
     std::optional<ToneMap> tonemap;

@@ -33,7 +33,9 @@ constexpr std::uint32_t most_samples_ever = 1u << 30;
 }  // namespace
 
 Passes::Passes(const Plan& plan, const Goal& goal)
-    : goal_(goal), stratified_(plan.settings().estimator == Estimator::stratified) {
+    : goal_(goal),
+      stratified_(plan.settings().estimator == Estimator::stratified),
+      doubling_(plan.settings().estimator == Estimator::sobol && goal.adaptive) {
     const Tiling tiling(plan.settings().width, plan.settings().height, region_side);
     for (std::size_t i = 0; i < tiling.size(); ++i) {
         for (const Colour colour : {Colour::black, Colour::white}) {
@@ -155,9 +157,51 @@ double Passes::size(const std::vector<Pattern>& pass) const {
 /// What is wanted, by region, as near as strata allow. To round down is for a limit: else it would leave ever
 /// smaller rests.
 std::vector<Pattern> Passes::patterns(const std::vector<double>& wanted, bool keep_below) const {
+    if (doubling_) return doublings(wanted, keep_below);
     std::vector<Pattern> list;
     for (std::size_t i = 0; i < tiles_.size(); ++i)
         list.push_back(pattern(i, wanted[i] - regions_[i].taken, keep_below));
+    return list;
+}
+
+/// The same in powers of two. What a region wants and does not get, or has and does not want, goes to the next one of
+/// its colour: to one of the other colour it would tell what that colour's own samples asked for.
+std::vector<Pattern> Passes::doublings(const std::vector<double>& wanted, bool keep_below) const {
+    std::vector<Pattern> list;
+    double owed[2] = {0, 0};
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+        std::uint32_t added = taken_[i];
+        if (added == 0) {
+            const double power = std::log2(std::max(wanted[i], 1.0));
+            added = 1u << static_cast<std::uint32_t>(keep_below ? power : std::round(power));
+        } else {
+            double& due = owed[tiles_[i].colour == Colour::black ? 0 : 1];
+            const double cost = regions_[i].pixels * added;
+            due += regions_[i].pixels * (wanted[i] - added);
+            if (due < (keep_below ? cost : cost / 2)) added = 0;
+            due -= regions_[i].pixels * added;
+        }
+        list.push_back({1, added, taken_[i]});
+    }
+    return list;
+}
+
+/// The least that brings an image further, where what was wanted rounded to nothing; nothing if there is no room.
+std::vector<Pattern> Passes::smallest(const std::vector<double>& wanted, double limit) const {
+    std::vector<Pattern> list(tiles_.size());
+    for (std::size_t i = 0; i < list.size(); ++i) list[i] = {1, 0, taken_[i]};
+    if (doubling_ && count_ > 0) {
+        const auto wish = [&](std::size_t i) { return wanted[i] / regions_[i].taken; };
+        std::size_t first = 0;
+        for (std::size_t i = 1; i < list.size(); ++i)
+            if (wish(i) > wish(first)) first = i;
+        if (total_ + regions_[first].pixels * taken_[first] <= limit) list[first].visits = taken_[first];
+        return list;
+    }
+    // All alike: the least that tells an error. A ceiling of one sample leaves nothing to tell.
+    const bool room_for_two = total_ + 2 * all_pixels_ <= limit;
+    if (!room_for_two && count_ > 0) return list;
+    for (Pattern& pattern : list) pattern.visits = room_for_two ? 2 : 1;
     return list;
 }
 
@@ -181,15 +225,10 @@ std::vector<Task> Passes::next(double elapsed) {
     const std::vector<double> samples = wanted(std::min(limit, total_of_next()));
     std::vector<Pattern> pass = patterns(samples, false);
     if (total_ + size(pass) > limit) pass = patterns(samples, true);
+    if (size(pass) == 0) pass = smallest(samples, limit);
     if (size(pass) == 0) {
-        const bool room_for_all = total_ + 2 * all_pixels_ <= limit;
-        if (!room_for_all && count_ > 0) {
-            reason_ = limit < ceiling() ? StopReason::time : StopReason::samples;
-            return {};
-        }
-        // All were so near to what they should have that it rounded to nothing: the least that tells an error, for
-        // all. A ceiling of one sample leaves nothing to tell.
-        for (std::size_t i = 0; i < pass.size(); ++i) pass[i] = {1, room_for_all ? 2u : 1u, taken_[i]};
+        reason_ = limit < ceiling() ? StopReason::time : StopReason::samples;
+        return {};
     }
     return begin(pass, elapsed);
 }

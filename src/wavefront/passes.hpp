@@ -11,6 +11,10 @@
 // asked again: a half that got more of them sees more, and would pass on to the other what that had passed to it. The
 // first passes, an eighth of the work or more, give all pixels as many samples; after these only the error of the whole
 // image counts, in which a pixel is one of many.
+//
+// Sobol's sequences go on from pass to pass, both by as many points. They are even after powers of two of them, and
+// less so after a few more (an edge's error is four times as large after 34 samples as after 32), so that where regions
+// may differ each one's samples double or stay, and of regions that want half as many again every second one doubles.
 #pragma once
 
 #include <optional>
@@ -61,10 +65,13 @@ private:
     Pattern pattern(std::size_t region, double samples, bool keep_below) const;
     double size(const std::vector<Pattern>& pass) const;
     std::vector<Pattern> patterns(const std::vector<double>& wanted, bool keep_below) const;
+    std::vector<Pattern> doublings(const std::vector<double>& wanted, bool keep_below) const;
+    std::vector<Pattern> smallest(const std::vector<double>& wanted, double limit) const;
     std::vector<Task> begin(const std::vector<Pattern>& pass, double elapsed);
 
     Goal goal_;
     bool stratified_;
+    bool doubling_;            ///< a region's samples double or stay as they are
     std::vector<Tile> tiles_;  ///< by region; the halves of a tile stand side by side
     std::vector<Region> regions_;
     std::vector<std::uint32_t> taken_;  ///< by region, as a sample number

@@ -16,7 +16,7 @@ struct Pattern {
     std::uint32_t samples() const { return strata * strata * visits; }
 };
 
-/// All samples of a pixel at once, as the plan says. To uniform samples the pixel is one cell.
+/// All samples of a pixel at once, as the plan says. To samples that are not stratified the pixel is one cell.
 inline Pattern whole_pattern(const Plan& plan) {
     const bool stratified = plan.settings().estimator == Estimator::stratified;
     return {plan.strata(), stratified ? 1 : plan.samples(), 0};

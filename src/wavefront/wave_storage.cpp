@@ -57,7 +57,14 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
     carver.field(slots.plane_x, padded);
     carver.field(slots.plane_y, padded);
     carver.field(slots.radiance, std::size_t{4} * padded);
-    if (needs.points) carver.queue(slots.points, capacity);
+    if (needs.points) {
+        using enum kernels::Scattering;
+        const bool four = needs.lens || needs.one_light;
+        carver.field(slots.points.x, capacity);
+        carver.field(slots.points.y, capacity);
+        if (four || needs.scatters(dielectric) || needs.scatters(translucent)) carver.field(slots.points.z, capacity);
+        if (four) carver.field(slots.points.w, capacity);
+    }
     ray_fields(rays, capacity);
     carver.queue(hits, capacity);
     if (needs.sort) {

@@ -116,10 +116,11 @@ TEST(Options, RouletteEndsPathsEarly) {
 
 TEST(Options, RouletteFromPostponesTheGame) {
     const auto rays = [](Arguments options) {
-        options.insert(options.begin(), {"--depth", "4"});
+        if (!std::ranges::count(options, "--depth")) options.insert(options.begin(), {"--depth", "4"});
         return stats_of("tests/diffuse_area.json", options)["rays"]["closest"].get<int>();
     };
-    EXPECT_EQ(rays({"--roulette-from", "8"}), rays({}));
+    EXPECT_EQ(rays({"--depth", "20", "--roulette-from", "8"}), rays({"--depth", "20"}));
+    EXPECT_LT(rays({"--depth", "20", "--roulette-from", "7"}), rays({"--depth", "20"}));
     EXPECT_LT(rays({"--roulette-from", "0"}), rays({"--roulette-from", "1"}));
     EXPECT_LT(rays({"--roulette-from", "1"}), rays({"--roulette-from", "3"}));
     EXPECT_EQ(rays({"--roulette-from", "4"}), rays({"--roulette", "off"}));

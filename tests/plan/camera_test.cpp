@@ -113,7 +113,7 @@ TEST(EnclosingDistance, ExceedsEveryHit) {
     EXPECT_TRUE(std::isfinite(Plan(empty_world()).tables().enclosing_distance));
 }
 
-TEST(Samples, AreRoundedDownToASquareWhenStratified) {
+TEST(Samples, AreRoundedDownToASquareOrAnEvenNumber) {
     for (const auto& [asked, side] : {std::pair{1u, 1u},
                                       {2u, 1u},
                                       {3u, 1u},
@@ -133,6 +133,8 @@ TEST(Samples, AreRoundedDownToASquareWhenStratified) {
         scene.settings.estimator = Estimator::uniform;
         EXPECT_EQ(Plan(scene).strata(), 1u);
         EXPECT_EQ(Plan(scene).samples(), asked);
+        scene.settings.estimator = Estimator::sobol;
+        EXPECT_EQ(Plan(scene).samples(), asked == 1 ? 1 : asked / 2 * 2) << "as many of both sequences";
     }
 }
 

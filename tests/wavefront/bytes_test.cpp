@@ -34,6 +34,9 @@ std::vector<Scene> scenes() {
     }
     all.push_back(all.front());
     all.back().settings.estimator = Estimator::sobol;
+    all.push_back(everything(Integrator::whitted));
+    all.back().camera.aperture = 0.1;
+    all.back().settings.estimator = Estimator::sobol;
     all.push_back(crowd());
     all.push_back(crowd(Integrator::whitted));
     // One light of several at a vertex, through the loop and through the tree.
@@ -80,7 +83,7 @@ TEST_P(SameBytes, OnInstructionSetsThatRoundAlike) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SameBytes, testing::Range<std::size_t>(0, 12));
+INSTANTIATE_TEST_SUITE_P(Scenes, SameBytes, testing::Range<std::size_t>(0, 13));
 
 // Rays, too, are the same rays.
 TEST(Counters, AreTheSameForAnyWaveSizeAndNumberOfThreads) {

@@ -92,13 +92,14 @@ TEST_P(Prefix, SampleIsTheSameHoweverManyFollow) {
     scene.settings.estimator = GetParam();
     std::vector<long> lit(256, 0);
     long mixed = 0;
-    for (std::uint32_t samples = 1; samples <= 40; ++samples) {
+    const std::uint32_t step = GetParam() == Estimator::sobol ? 2 : 1;  // as many of both sequences
+    for (std::uint32_t samples = step; samples <= 40; samples += step) {
         scene.settings.samples = samples;
         const Image image = image_of(scene);
         for (std::size_t i = 0; i < lit.size(); ++i) {
             const long now = std::lround(image.pixels[i].r * static_cast<float>(samples));
             const long added = now - lit[i];
-            EXPECT_TRUE(added == 0 || added == 1) << "pixel " << i << ", sample " << samples - 1;
+            EXPECT_TRUE(0 <= added && added <= step) << "pixel " << i << ", sample " << samples - 1;
             lit[i] = now;
             if (samples == 40 && now > 0 && now < 40) ++mixed;
         }

@@ -1,6 +1,7 @@
 // Renders that stop by themselves: at an error, at a time, at a ceiling.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <set>
 
@@ -51,16 +52,20 @@ struct Asked {
     Scene scene;
     Estimator estimator;
     double error;
+    double lowest = 0.88;  ///< mean of the errors made, over that asked
+    int within = 17;       ///< of 20 renders, to a fifth
 };
 
 class StopAtAnError : public testing::TestWithParam<bool> {};
 
 // 0.8 to 1.2 of what was asked, in most renders and for the mean over seeds. (An image of 24 x 24 knows its error to
 // a tenth or so.)
+// Sobol's sequences double, and at an edge that divides the error by 2.4: they land below.
 TEST_P(StopAtAnError, LandsThere) {
     const Asked cases[] = {{"noise", noisy(3, side), Estimator::stratified, 0.05},
                            {"noise, uniform", noisy(3, side), Estimator::uniform, 0.05},
-                           {"noise, sobol", noisy(3, side), Estimator::sobol, 0.05},
+                           {"edges, sobol", edges(side), Estimator::sobol, 0.02, 0.5, 0},
+                           {"noise, sobol", noisy(3, side), Estimator::sobol, 0.05, 0.8, 14},
                            {"edges", edges(side), Estimator::stratified, 0.02}};
     for (Asked asked : cases) {
         asked.scene.settings.estimator = asked.estimator;
@@ -81,9 +86,9 @@ TEST_P(StopAtAnError, LandsThere) {
         }
         RecordProperty(asked.name, std::to_string(sum / seeds / asked.error));
         RecordProperty(asked.name + std::string("_covered"), covered);
-        EXPECT_GT(sum / seeds, 0.88 * asked.error) << asked.name;
+        EXPECT_GT(sum / seeds, asked.lowest * asked.error) << asked.name;
         EXPECT_LT(sum / seeds, 1.06 * asked.error) << asked.name;
-        EXPECT_GE(within, 17) << asked.name;
+        EXPECT_GE(within, asked.within) << asked.name;
         EXPECT_GE(covered, 16) << asked.name << ": 19 expected, with a standard deviation of 1";
     }
 }
@@ -126,7 +131,10 @@ TEST_P(StopAtAnError, IsWithoutBias) {
     Scene strip = rare();
     strip.settings.width = 256;
     strip.settings.height = 1;
+    Scene sobol = noisy(3, side);
+    sobol.settings.estimator = Estimator::sobol;
     const std::pair<Scene, Goal> cases[] = {{noisy(3, side), {.error = 0.3, .adaptive = GetParam()}},
+                                            {sobol, {.error = 0.3, .adaptive = GetParam()}},
                                             {strip, {.error = 1e-3, .samples = 200, .adaptive = GetParam()}}};
     for (auto [scene, goal] : cases) {
         const auto truth = reference::render(scene, {.samples = 4000, .block_size = 4, .next_event = true});
@@ -142,6 +150,22 @@ TEST_P(StopAtAnError, IsWithoutBias) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Adaptive, StopAtAnError, testing::Bool());
+
+// After a few more points than a power of two sequences are less even than before.
+TEST(Passes, DoubleTheSamplesOfSobolsSequences) {
+    for (const Goal& goal :
+         {Goal{.error = 0.05}, Goal{.error = 1e-9, .samples = 100}, Goal{.error = 1e-9, .samples = 3}}) {
+        Scene scene = noisy(3, side);
+        scene.settings.estimator = Estimator::sobol;
+        const RenderStats stats = render_to(scene, goal).stats;
+        EXPECT_TRUE(std::has_single_bit(stats.least_samples)) << stats.least_samples;
+        EXPECT_TRUE(std::has_single_bit(stats.most_samples)) << stats.most_samples;
+        if (goal.samples == 0) continue;
+        EXPECT_LE(stats.samples_per_pixel, static_cast<double>(goal.samples));
+        EXPECT_GT(stats.samples_per_pixel, goal.samples == 3 ? 1.9 : 95);
+        EXPECT_EQ(stats.stopped_by, StopReason::samples);
+    }
+}
 
 TEST(Passes, SpendSamplesWhereTheErrorIs) {
     const Goal goal{.error = 0.04};
