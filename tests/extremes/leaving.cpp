@@ -217,11 +217,12 @@ void add_leaving(std::vector<Case>& cases) {
     constexpr auto group = "leaving a surface";
     constexpr std::uint64_t sites_of_test = 2500, times_on_page = 170;  // eight cases of 1.3e7 rays
     for_each_mode([&]<class V>() {
-        // One ray in 1e8 that grazes the surface it begins on has a disc of almost 0 beside a c that is not, and is
-        // wrong by 15 units; all others by less than 8.
+        // Of float's rays three in 1e8, which graze another surface they begin on, have a disc of almost 0 beside a c
+        // that is not, and miss the place by 10 to 16 units; all others, and all of the other modes', by less than 8.
+        constexpr Limits limits{32, 8, 8};
         const auto beside = [&](const char* name, double reach, Neighbours neighbours) {
             add_trials<V>(
-                cases, group, name, "u (f + r)", 32, sites_of_test,
+                cases, group, name, "u (f + r)", limits.of<V>(), sites_of_test,
                 [=](Errors& errors, Dice& dice) { leave<V>(errors, dice, reach, neighbours); }, times_on_page);
         };
         add_trials<V>(cases, group, "position off the sphere", "u (C + r)", 4, 10000, stand<V>);

@@ -16,10 +16,10 @@ using namespace orrery::extremes;
 
 constexpr const char* introduction = R"(# Where the numbers hold
 
-Written by `./run extremes`, which runs the cases of [`tests/extremes`](../tests/extremes) with ten times the trials the
-tests run, and more where rays leave a surface; {:g} times that. Errors are measured by formulas that share nothing with
-the kernels, in quadruple precision (113 bits); those of rays that leave a surface in double for float and in 64 bits for
-double, which blur a rounding by some 2^-28 and 2^-10 of itself. A test fails when a limit is exceeded.
+Written by `./run extremes TIMES`, which runs the cases of [`tests/extremes`](../tests/extremes) with ten times the
+trials the tests run, 170 times where rays leave a surface, and all that TIMES over; TIMES was {:g}. Errors are measured
+by formulas that share nothing with the kernels, in quadruple precision (113 bits); those of rays that leave a surface in
+double for float and in 64 bits for double, which blur a rounding by some 2^-28 and 2^-10 of itself. A test fails when a limit is exceeded.
 
 *float* is what scalar code, AVX2 and AVX-512 compute, to the same byte; SSE2 has no fused multiply-add and rounds more
 often. u is the unit of rounding: 2^-24 in float, 2^-53 in double.
@@ -35,7 +35,7 @@ than 8. Ten thousand terms in one float sample drift by up to half a rounding ea
 leave a sphere less than a rounding, samples may come out as no numbers: they are dropped, counted and reported. The
 density of a glossy sample loses the digits of (1 - beta)^2: at roughness 0.999999 float has none left for the one sample
 in a million whose perturbation all but cancels the direction. A still life of balls of radius 1/4 to 1 moved by 1e6, where the
-numbers of float are 1/16 apart, is another picture by up to 30 %: there the planner warns, and `--precision auto`
+numbers of float are 1/16 apart, is another picture, by a fifth: there the planner warns, and `--precision auto`
 takes double.
 )";
 

@@ -2,12 +2,10 @@
 // connect_point and connect_area sample it, over the probability of the choice.
 #include <map>
 
-#include "geometry.hpp"
 #include "kernel_test.hpp"
 #include "light_reference.hpp"
-#include "numbers.hpp"
+#include "lit_vertices.hpp"
 #include "optics_reference.hpp"
-#include "owned.hpp"
 #include "random_reference.hpp"
 
 namespace orrery::kernel_tests {
@@ -18,7 +16,7 @@ using kernels::LightStrategy;
 using kernels::no_sphere;
 using kernels::Response;
 
-constexpr std::uint32_t begin = 16, seed = 21, bounce = 4;
+constexpr std::uint32_t begin = LitVertices::begin, seed = 21, bounce = 4;
 
 /// Five lights in eight cells: two points and three balls, the last ball around everything.
 struct Choice {
@@ -82,38 +80,15 @@ protected:
                       {{.beta = 0.3}, {.beta = 0.5}, {.beta = 0.9}},
                       {{5, 6, 7}, {50, 20, 10}, {0.1, 0.2, 0.3}}};
 
-    struct Wave {
-        Rays rays;
-        Lobes lobes;
-        std::uint32_t count;
-    };
-    /// Vertices as `scatter` leaves them, both sides; every fifth dead.
-    Wave wave_of(std::uint32_t count) const {
-        const std::uint32_t capacity = begin + kernels::padded_run(count) + 16;
-        Wave w{Rays(capacity), Lobes(capacity), count};
-        Numbers random(count);
-        for (std::uint32_t i = begin; i < begin + count; ++i) {
-            const std::uint32_t k = random.below(world.spheres.count);
-            const bool inward = i % 3 == 0 || k == 6;
-            const glm::dvec3 outward = random.direction(), n = inward ? -outward : outward;
-            put_ray(*w.rays, i, world.centre(k) + world.radius(k) * outward, random.direction(),
-                    inward ? k | inside_bit : k, i % 5 == 4 ? glm::dvec3(0) : random.colour());
-            w.rays->slot[i] = 5000 - i;
-            glm::dvec3 lobe = random.direction();
-            if (glm::dot(lobe, n) < 0) lobe = -lobe;
-            // Half of the lobes look where a light is, or a narrow one would hardly ever see it.
-            const glm::dvec3 lights[] = {{2, -3, 4}, {-1, 2, -5}, world.centre(3), world.centre(5)};
-            const glm::dvec3 to = glm::normalize(lights[random.below(4)] - origin_of(*w.rays, i));
-            if (i % 2 == 0 && glm::dot(to, n) > 0) lobe = glm::normalize(to + 0.03 * random.direction());
-            put3(w.lobes->x, w.lobes->y, w.lobes->z, i, lobe);
-        }
-        return w;
+    LitVertices wave_of(std::uint32_t count) const {
+        const glm::dvec3 lights[] = {{2, -3, 4}, {-1, 2, -5}, world.centre(3), world.centre(5)};
+        return lit_vertices(world, lights, count, 6);
     }
     kernels::ConnectContext<float> context(const Slots& slots, bool competing) const {
         return {world.spheres, world.materials, *slots, seed, bounce, 0, competing};
     }
 
-    static std::uint32_t chosen_by(const Choice& choice, const Wave& w, std::uint32_t i) {
+    static std::uint32_t chosen_by(const Choice& choice, const LitVertices& w, std::uint32_t i) {
         const auto u = random_reference(seed, static_cast<std::uint32_t>(kernels::Dimension::light), w.rays->pixel[i],
                                         w.rays->sample[i], bounce);
         const auto cell = static_cast<std::uint32_t>(std::floor(u[2] * Choice::cell_count));
@@ -122,7 +97,7 @@ protected:
 
     /// What the single-light stage makes of every vertex for one light of the table, by slot, without competition.
     std::map<std::uint32_t, std::uint32_t> alone(const Choice& choice, std::uint32_t light, std::size_t response,
-                                                 std::size_t strategy, const Wave& w, const Slots& slots,
+                                                 std::size_t strategy, const LitVertices& w, const Slots& slots,
                                                  const Shadows& queue) const {
         const auto& t = choice.table;
         std::uint32_t size = 0;
@@ -145,7 +120,7 @@ protected:
                        std::uint32_t count, bool with_targets = true) const {
         const auto r = static_cast<std::size_t>(response), s = static_cast<std::size_t>(strategy);
         const Slots slots(16, {"node"});
-        const Wave w = wave_of(count), same = w;
+        const LitVertices w = wave_of(count), same = w;
         const std::uint32_t capacity = kernels::round_up(count) + kernels::widest;
         const Shadows before = with_targets ? Shadows(capacity, Shadows::WithTargets{}) : Shadows(capacity);
         Shadows queue = before;
@@ -236,7 +211,7 @@ TEST_P(ConnectChosenTest, LeavesTheRestToScattering) {
     kernels::EmissionTable<float> emission = world.emission;
     emission.probability = probability.data();
     constexpr std::uint32_t count = 3001;
-    const Wave w = wave_of(count);
+    const LitVertices w = wave_of(count);
     for (const auto strategy : {LightStrategy::area, LightStrategy::cone}) {
         const std::uint32_t capacity = kernels::round_up(count) + kernels::widest;
         const Slots slots(capacity, {"node"});

@@ -1,10 +1,8 @@
 // Stage `shade`, last step: every shadow ray against the estimator of spec section 4 in double.
-#include "geometry.hpp"
 #include "kernel_test.hpp"
 #include "light_reference.hpp"
-#include "numbers.hpp"
+#include "lit_vertices.hpp"
 #include "optics_reference.hpp"
-#include "owned.hpp"
 
 namespace orrery::kernel_tests {
 namespace {
@@ -14,7 +12,7 @@ using kernels::LightStrategy;
 using kernels::no_sphere;
 using kernels::Response;
 
-constexpr std::uint32_t begin = 16, light_sphere = 3;
+constexpr std::uint32_t begin = LitVertices::begin, light_sphere = 3;
 
 class ConnectTest : public KernelTest {
 protected:
@@ -30,31 +28,9 @@ protected:
                                                world.spheres.cz[3], world.spheres.radius[3], world.emission.r[0],
                                                world.emission.g[0], world.emission.b[0]};
 
-    struct Wave {
-        Rays rays;
-        Lobes lobes;
-        std::uint32_t count;
-    };
-    /// Vertices as `scatter` leaves them, both sides; every fifth dead.
-    Wave wave_of(std::uint32_t count) const {
-        const std::uint32_t capacity = begin + kernels::padded_run(count) + 16;
-        Wave w{Rays(capacity), Lobes(capacity), count};
-        Numbers random(count);
-        for (std::uint32_t i = begin; i < begin + count; ++i) {
-            const std::uint32_t k = random.below(world.spheres.count);
-            const bool inward = i % 3 == 0;
-            const glm::dvec3 outward = random.direction(), n = inward ? -outward : outward;
-            put_ray(*w.rays, i, world.centre(k) + world.radius(k) * outward, random.direction(),
-                    inward ? k | inside_bit : k, i % 5 == 4 ? glm::dvec3(0) : random.colour());
-            w.rays->slot[i] = 5000 - i;
-            glm::dvec3 lobe = random.direction();
-            if (glm::dot(lobe, n) < 0) lobe = -lobe;
-            // Half of the lobes look where the light is, or a narrow one would never see it.
-            const glm::dvec3 to = glm::normalize(world.centre(light_sphere) - origin_of(*w.rays, i));
-            if (i % 2 == 0 && glm::dot(to, n) > 0) lobe = glm::normalize(to + 0.03 * random.direction());
-            put3(w.lobes->x, w.lobes->y, w.lobes->z, i, lobe);
-        }
-        return w;
+    LitVertices wave_of(std::uint32_t count) const {
+        const glm::dvec3 lights[] = {world.centre(light_sphere)};
+        return lit_vertices(world, lights, count);
     }
     kernels::ConnectContext<float> context(const Slots& slots, bool competing = false) const {
         return {world.spheres, world.materials, *slots, 21, 4, 2, competing};
@@ -80,7 +56,7 @@ protected:
             return 2e-5 / (1 + side) + 20 * glossy_slack(lobe, beta, d);
         }
     };
-    Vertex vertex(const Wave& w, std::uint32_t i) const {
+    Vertex vertex(const LitVertices& w, std::uint32_t i) const {
         Vertex v;
         v.sphere = w.rays->left[i] & no_sphere;
         v.inward = (w.rays->left[i] & inside_bit) != 0;
@@ -94,10 +70,10 @@ protected:
 
     /// Runs a connecting stage, checks what it touches, and that fused instruction sets agree.
     template <class Stage>
-    Shadows connected(const Wave& w, std::uint32_t& size, Stage&& stage) const {
+    Shadows connected(const LitVertices& w, std::uint32_t& size, Stage&& stage) const {
         Shadows queue(kernels::round_up(w.count) + kernels::widest);
         const Shadows before = queue;
-        const Wave same = w;
+        const LitVertices same = w;
         size = stage(stages, w, queue);
         EXPECT_LE(size, w.count);
         EXPECT_TRUE(queue.untouched_but(before, 0, static_cast<std::ptrdiff_t>(size) + kernels::widest - 1));
@@ -111,7 +87,7 @@ protected:
     }
 
     /// Common to every entry: whose it is.
-    static void expect_belongs(const Shadows& queue, std::uint32_t at, const Wave& w, std::uint32_t i) {
+    static void expect_belongs(const Shadows& queue, std::uint32_t at, const LitVertices& w, std::uint32_t i) {
         ASSERT_EQ(queue->left[at], w.rays->left[i]);
         ASSERT_EQ(get3(queue->ox, queue->oy, queue->oz, at), origin_of(*w.rays, i));
         ASSERT_NEAR(glm::length(get3(queue->dx, queue->dy, queue->dz, at)), 1, 4e-7);
@@ -120,9 +96,9 @@ protected:
     void expect_point_light_agrees(Response response, std::uint32_t count) const {
         const Slots slots(16, {"node"});
         const kernels::PointLight<float> light{2, -3, 4, 10, 20, 30};
-        const Wave w = wave_of(count);
+        const LitVertices w = wave_of(count);
         std::uint32_t size = 0;
-        const Shadows queue = connected(w, size, [&](const auto& table, const Wave& in, const Shadows& to) {
+        const Shadows queue = connected(w, size, [&](const auto& table, const LitVertices& in, const Shadows& to) {
             return table.connect_point[static_cast<std::size_t>(response)](context(slots), light, {begin, in.count},
                                                                            *in.rays, *in.lobes, *to);
         });
@@ -155,9 +131,9 @@ protected:
     void expect_area_light_agrees(Response response, LightStrategy strategy, bool competing,
                                   std::uint32_t count) const {
         const Slots slots(16, {"node"});
-        const Wave w = wave_of(count);
+        const LitVertices w = wave_of(count);
         std::uint32_t size = 0;
-        const Shadows queue = connected(w, size, [&](const auto& table, const Wave& in, const Shadows& to) {
+        const Shadows queue = connected(w, size, [&](const auto& table, const LitVertices& in, const Shadows& to) {
             return table.connect_area[static_cast<std::size_t>(strategy)][static_cast<std::size_t>(response)](
                 context(slots, competing), area_light, {begin, in.count}, *in.rays, *in.lobes, *to);
         });
@@ -229,7 +205,7 @@ TEST_P(ConnectTest, AreaLightOnGlossy) {
 
 TEST_P(ConnectTest, DeadVerticesConnectToNothing) {
     const Slots slots(16, {"node"});
-    const Wave w = wave_of(125);
+    const LitVertices w = wave_of(125);
     for (std::uint32_t i = begin; i < begin + 125; ++i) put3(w.rays->tr, w.rays->tg, w.rays->tb, i, glm::dvec3(0));
     Shadows queue(160);
     const Shadows before = queue;
@@ -246,7 +222,7 @@ TEST_P(ConnectTest, DeadVerticesConnectToNothing) {
 // A light at the vertex itself has no direction and no distance: nothing may come of it, least of all a NaN.
 TEST_P(ConnectTest, PointLightOnTheSurfaceItselfIsLeftOut) {
     const Slots slots(16, {"node"});
-    Wave w{Rays(48), Lobes(48), 1};
+    LitVertices w{Rays(48), Lobes(48), 1};
     put_ray(*w.rays, begin, {1, 0, 0}, {1, 0, 0}, 0);
     const kernels::PointLight<float> light{1, 0, 0, 1, 1, 1};
     Shadows queue(32);
