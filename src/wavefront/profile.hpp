@@ -17,7 +17,7 @@ inline constexpr std::size_t profile_bounces = 16;
 /// What one stage did at one bounce, summed over waves and threads.
 struct StageCost {
     double seconds = 0;        ///< of the threads, not of the clock on the wall
-    std::uint64_t rays = 0;    ///< that entered it; in `shade` those that met a surface, and misses of waves left unsorted
+    std::uint64_t rays = 0;    ///< that entered it; in `shade` those that met a surface, and unsorted waves' misses
     std::uint64_t lanes = 0;   ///< its vectors had, over all its steps; 0 where they hold spheres instead of rays
     std::uint64_t filled = 0;  ///< of those lanes: with a ray in them, be it one that missed
     std::uint64_t bytes = 0;   ///< of the queues' columns, read and written

@@ -19,7 +19,8 @@ constexpr const char* introduction = R"(# Where the numbers hold
 Written by `./run extremes TIMES`, which runs the cases of [`tests/extremes`](../tests/extremes) with ten times the
 trials the tests run, 170 times where rays leave a surface, and all that TIMES over; TIMES was {:g}. Errors are measured
 by formulas that share nothing with the kernels, in quadruple precision (113 bits); those of rays that leave a surface in
-double for float and in 64 bits for double, which blur a rounding by some 2^-28 and 2^-10 of itself. A test fails when a limit is exceeded.
+double for float and in 64 bits for double, which blur a rounding by some 2^-28 and 2^-10 of itself. A test fails when a
+limit is exceeded.
 
 *float* is what scalar code, AVX2 and AVX-512 compute, to the same byte; SSE2 has no fused multiply-add and rounds more
 often. u is the unit of rounding: 2^-24 in float, 2^-53 in double.
