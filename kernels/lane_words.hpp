@@ -10,6 +10,16 @@
 
 namespace orrery::kernels {
 
+/// The same bits, as elements of type To. Up to version 10 xsimd's function is told the type of the vector instead.
+template <class To, class From, class Arch>
+ORRERY_INLINE xsimd::batch<To, Arch> bits_as(const xsimd::batch<From, Arch>& x) {
+#if XSIMD_VERSION_MAJOR < 11
+    return xsimd::bitwise_cast<xsimd::batch<To, Arch>>(x);
+#else
+    return xsimd::bitwise_cast<To>(x);
+#endif
+}
+
 /// Words equal, as a mask of numbers.
 template <class Word, class = std::enable_if_t<std::is_integral_v<Word>>>
 ORRERY_INLINE bool words_equal(Word a, Word b) {
@@ -17,8 +27,8 @@ ORRERY_INLINE bool words_equal(Word a, Word b) {
 }
 template <class Word, class Arch>
 ORRERY_INLINE auto words_equal(const xsimd::batch<Word, Arch>& a, const xsimd::batch<Word, Arch>& b) {
-    using I = xsimd::batch<std::make_signed_t<Word>, Arch>;
-    const auto equal = xsimd::bitwise_cast<I>(a) == xsimd::bitwise_cast<I>(b);
+    using Signed = std::make_signed_t<Word>;
+    const auto equal = bits_as<Signed>(a) == bits_as<Signed>(b);
 #if XSIMD_VERSION_MAJOR < 9
     return xsimd::bool_cast(equal);
 #else
@@ -31,9 +41,7 @@ template <class Real, class Arch>
 ORRERY_INLINE xsimd::batch<WordOf<Real>, Arch> choose(const xsimd::batch_bool<Real, Arch>& m,
                                                       const xsimd::batch<WordOf<Real>, Arch>& a,
                                                       const xsimd::batch<WordOf<Real>, Arch>& b) {
-    using F = xsimd::batch<Real, Arch>;
-    using U = xsimd::batch<WordOf<Real>, Arch>;
-    return xsimd::bitwise_cast<U>(xsimd::select(m, xsimd::bitwise_cast<F>(a), xsimd::bitwise_cast<F>(b)));
+    return bits_as<WordOf<Real>>(xsimd::select(m, bits_as<Real>(a), bits_as<Real>(b)));
 }
 
 /// The low 32 bits of words that may hold anything above them.
@@ -55,7 +63,7 @@ ORRERY_INLINE std::uint64_t multiply_words(std::uint64_t a, std::uint64_t b) { r
 template <class Word, class Arch>
 ORRERY_INLINE xsimd::batch<Word, Arch> multiply_words(const xsimd::batch<Word, Arch>& a,
                                                       const xsimd::batch<Word, Arch>& b) {
-    using U = xsimd::batch<Word, Arch>;
+    using U [[maybe_unused]] = xsimd::batch<Word, Arch>;
     if constexpr (sizeof(Word) == 8) {
 #if defined(__AVX512F__)
         if constexpr (sizeof(U) == 64) return U(_mm512_mul_epu32(a, b));
@@ -63,12 +71,14 @@ ORRERY_INLINE xsimd::batch<Word, Arch> multiply_words(const xsimd::batch<Word, A
 #if defined(__AVX2__)
         if constexpr (sizeof(U) == 32) return U(_mm256_mul_epu32(a, b));
 #endif
+#if defined(__SSE2__)
         if constexpr (sizeof(U) == 16) return U(_mm_mul_epu32(a, b));
     } else if constexpr (std::is_same_v<Arch, xsimd::sse2>) {
         const __m128i x = a, y = b;
         const __m128i even = _mm_mul_epu32(x, y);
         const __m128i odd = _mm_mul_epu32(_mm_srli_epi64(x, 32), _mm_srli_epi64(y, 32));
         return U(_mm_unpacklo_epi32(_mm_shuffle_epi32(even, 0x08), _mm_shuffle_epi32(odd, 0x08)));
+#endif
     } else {
         return a * b;
     }
@@ -80,11 +90,10 @@ ORRERY_INLINE double flip_sign(double x, std::uint64_t sign) { return (sign & 0x
 template <class Real, class Arch>
 ORRERY_INLINE xsimd::batch<Real, Arch> flip_sign(const xsimd::batch<Real, Arch>& x,
                                                  const xsimd::batch<WordOf<Real>, Arch>& sign) {
-    using F = xsimd::batch<Real, Arch>;
     using U = xsimd::batch<WordOf<Real>, Arch>;
     U top = sign & U(0x80000000u);
     if constexpr (sizeof(Real) == 8) top = top << 32;
-    return xsimd::bitwise_cast<F>(xsimd::bitwise_cast<U>(x) ^ top);
+    return bits_as<Real>(bits_as<WordOf<Real>>(x) ^ top);
 }
 
 /// The low half of a random word as a number in [0, 1). A float takes its top 24 bits, as all 32 would round to 1.0 for
@@ -97,10 +106,9 @@ ORRERY_INLINE auto unit_interval(const xsimd::batch<Word, Arch>& word) {
         // The bits behind the point of a number in [1, 2): exact, and no instruction set lacks it.
         using U = xsimd::batch<Word, Arch>;
         using F = xsimd::batch<double, Arch>;
-        return xsimd::bitwise_cast<F>(low_half(word) << 20 | U(std::bit_cast<Word>(1.0))) - F(1);
+        return bits_as<double>(low_half(word) << 20 | U(std::bit_cast<Word>(1.0))) - F(1);
     } else {
-        using I = xsimd::batch<std::int32_t, Arch>;
-        return xsimd::to_float(xsimd::bitwise_cast<I>(word >> 8)) * xsimd::batch<float, Arch>(0x1p-24f);
+        return xsimd::to_float(bits_as<std::int32_t>(word >> 8)) * xsimd::batch<float, Arch>(0x1p-24f);
     }
 }
 
@@ -109,7 +117,7 @@ ORRERY_INLINE std::uint32_t truncate_to_word(float x) { return static_cast<std::
 ORRERY_INLINE std::uint64_t truncate_to_word(double x) { return static_cast<std::uint64_t>(x); }
 template <class Real, class Arch>
 ORRERY_INLINE xsimd::batch<WordOf<Real>, Arch> truncate_to_word(const xsimd::batch<Real, Arch>& x) {
-    using U = xsimd::batch<WordOf<Real>, Arch>;
+    using U [[maybe_unused]] = xsimd::batch<WordOf<Real>, Arch>;
     if constexpr (sizeof(Real) == 8) {
 #if defined(__AVX512DQ__)
         if constexpr (sizeof(U) == 64) return U(_mm512_cvttpd_epi64(x));
@@ -117,9 +125,11 @@ ORRERY_INLINE xsimd::batch<WordOf<Real>, Arch> truncate_to_word(const xsimd::bat
 #if defined(__AVX2__)
         if constexpr (sizeof(U) == 32) return U(_mm256_cvtepu32_epi64(_mm256_cvttpd_epi32(x)));
 #endif
+#if defined(__SSE2__)
         if constexpr (sizeof(U) == 16) return U(_mm_unpacklo_epi32(_mm_cvttpd_epi32(x), _mm_setzero_si128()));
+#endif
     } else {
-        return xsimd::bitwise_cast<U>(xsimd::to_int(x));
+        return bits_as<WordOf<Real>>(xsimd::to_int(x));
     }
 }
 ORRERY_INLINE float to_number(std::uint32_t word) { return static_cast<float>(static_cast<std::int32_t>(word)); }
@@ -129,9 +139,9 @@ ORRERY_INLINE auto to_number(const xsimd::batch<Word, Arch>& word) {
     if constexpr (sizeof(Word) == 8) {
         // As the last bits of a number in [2^52, 2^53).
         using F = xsimd::batch<double, Arch>;
-        return xsimd::bitwise_cast<F>(word | xsimd::batch<Word, Arch>(std::bit_cast<Word>(0x1p52))) - F(0x1p52);
+        return bits_as<double>(word | xsimd::batch<Word, Arch>(std::bit_cast<Word>(0x1p52))) - F(0x1p52);
     } else {
-        return xsimd::to_float(xsimd::bitwise_cast<xsimd::batch<std::int32_t, Arch>>(word));
+        return xsimd::to_float(bits_as<std::int32_t>(word));
     }
 }
 

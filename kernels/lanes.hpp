@@ -31,10 +31,12 @@ ORRERY_INLINE std::uint32_t bits(const xsimd::batch_bool<Real, Arch>& m) {
             return static_cast<std::uint32_t>(_mm256_movemask_ps(m.data));
         }
 #endif
+#if defined(__SSE2__)
     } else if constexpr (sizeof(Real) == 8) {
         return static_cast<std::uint32_t>(_mm_movemask_pd(m.data));
     } else {
         return static_cast<std::uint32_t>(_mm_movemask_ps(m.data));
+#endif
     }
 }
 

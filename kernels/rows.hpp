@@ -39,11 +39,13 @@ ORRERY_INLINE void save_rows(float* out, const Vec3<typename V::F>& v) {
         return;
     }
 #endif
+#if defined(__SSE2__)
     if constexpr (V::count == 4) {
         __m128 row[4] = {v.x, v.y, v.z, _mm_setzero_ps()};
         _MM_TRANSPOSE4_PS(row[0], row[1], row[2], row[3]);
         for (int j = 0; j < 4; ++j) _mm_store_ps(out + 4 * j, row[j]);
     }
+#endif
 }
 
 }  // namespace detail
@@ -76,7 +78,7 @@ ORRERY_INLINE void add_to_rows(typename V::Real* rows, const typename V::U& row,
         alignas(64) float terms[4 * V::count];
         row.store_aligned(at);
         detail::save_rows<V>(terms, value);
-        using Row = xsimd::batch<float, xsimd::sse2>;
+        using Row = xsimd::batch<typename V::Real, xsimd::sse2>;
         for (std::uint32_t lane = 0; lane < V::count; ++lane) {
             float* const sum = rows + std::size_t{4} * at[lane];
             const float* const term = terms + lane % 4 * V::count + lane / 4 * 4;

@@ -95,6 +95,12 @@ std::optional<JsonTree> parse_json(std::string_view text, Report& report) {
         report.add(Severity::error, line_and_column(text, nul), "found a NUL byte, expected JSON text in UTF-8");
         return std::nullopt;
     }
+    // Versions of the library word this one differently.
+    if (text.find_first_not_of(" \t\r\n") == text.npos) {
+        report.add(Severity::error, line_and_column(text, text.size()),
+                   "found the end of the text and nothing before it, expected a scene in JSON");
+        return std::nullopt;
+    }
     if (std::optional<JsonTree> tree = parse_quickly(text)) return tree;
     Explainer explainer(text, report);
     if (!Json::sax_parse(text.begin(), text.end(), &explainer)) return std::nullopt;

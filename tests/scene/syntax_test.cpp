@@ -29,8 +29,8 @@ TEST_P(SyntaxTest, IsReportedAtLineAndColumn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, SyntaxTest,
-                         testing::Values(Syntax{"empty", "", "1:1", "unexpected end of input"},
-                                         Syntax{"blank_lines", "\n\n  ", "3:3", "unexpected end of input"},
+                         testing::Values(Syntax{"empty", "", "1:1", "expected a scene in JSON"},
+                                         Syntax{"blank_lines", "\n\n  ", "3:3", "expected a scene in JSON"},
                                          Syntax{"missing_colon", "{\n  \"cameras\" []\n}", "2:13", "expected ':'"},
                                          Syntax{"columns_count_characters", "{\"\xC3\xA9\xC3\xA9\" 1}", "1:7",
                                                 "expected ':'"},
