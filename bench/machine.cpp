@@ -24,32 +24,29 @@ void dependent_additions() {
     for (int i = 0; i < rounds; ++i) asm volatile("add $1, %0\n\tadd $1, %0\n\tadd $1, %0\n\tadd $1, %0" : "+r"(n));
 }
 
-template <class Vector>
-void dependent_multiply_adds() {
-    Vector sum{}, factor{};
-    for (int i = 0; i < rounds; ++i) asm volatile("vfmadd213ps %1, %1, %0" : "+v"(sum) : "v"(factor));
-}
-
 static_assert(10 * rounds == independent_operations);
 
-/// Ten chains: more than latency times ports.
-template <class Vector>
-void independent_multiply_adds() {
-    Vector a{}, b{}, c{}, d{}, e{}, f{}, g{}, h{}, j{}, k{}, factor{};
-    for (int i = 0; i < rounds; ++i)
-        asm volatile(
-            "vfmadd213ps %10, %10, %0\n\tvfmadd213ps %10, %10, %1\n\tvfmadd213ps %10, %10, %2\n\t"
-            "vfmadd213ps %10, %10, %3\n\tvfmadd213ps %10, %10, %4\n\tvfmadd213ps %10, %10, %5\n\t"
-            "vfmadd213ps %10, %10, %6\n\tvfmadd213ps %10, %10, %7\n\tvfmadd213ps %10, %10, %8\n\t"
-            "vfmadd213ps %10, %10, %9"
-            : "+v"(a), "+v"(b), "+v"(c), "+v"(d), "+v"(e), "+v"(f), "+v"(g), "+v"(h), "+v"(j), "+v"(k)
-            : "v"(factor));
-}
-
-// Instantiated where the instruction set is known to the compiler.
-__attribute__((target("avx512f"), flatten)) void dependent_512() { dependent_multiply_adds<__m512>(); }
-__attribute__((target("avx2,fma"), flatten)) void dependent_256() { dependent_multiply_adds<__m256>(); }
-__attribute__((target("avx2,fma"), flatten)) void independent_256() { independent_multiply_adds<__m256>(); }
+// A macro, as the instruction set is an attribute of the function that holds the instructions: clang takes vectors for
+// operands of assembly nowhere else. Independent are ten chains, more than latency times ports.
+#define ORRERY_MULTIPLY_ADDS(bits, isa)                                                                    \
+    __attribute__((target(isa))) void dependent_##bits() {                                                 \
+        __m##bits sum{}, factor{};                                                                         \
+        for (int i = 0; i < rounds; ++i) asm volatile("vfmadd213ps %1, %1, %0" : "+v"(sum) : "v"(factor)); \
+    }                                                                                                      \
+    __attribute__((target(isa))) void ten_chains_##bits() {                                                \
+        __m##bits a{}, b{}, c{}, d{}, e{}, f{}, g{}, h{}, j{}, k{}, factor{};                              \
+        for (int i = 0; i < rounds; ++i)                                                                   \
+            asm volatile(                                                                                  \
+                "vfmadd213ps %10, %10, %0\n\tvfmadd213ps %10, %10, %1\n\tvfmadd213ps %10, %10, %2\n\t"     \
+                "vfmadd213ps %10, %10, %3\n\tvfmadd213ps %10, %10, %4\n\tvfmadd213ps %10, %10, %5\n\t"     \
+                "vfmadd213ps %10, %10, %6\n\tvfmadd213ps %10, %10, %7\n\tvfmadd213ps %10, %10, %8\n\t"     \
+                "vfmadd213ps %10, %10, %9"                                                                 \
+                : "+v"(a), "+v"(b), "+v"(c), "+v"(d), "+v"(e), "+v"(f), "+v"(g), "+v"(h), "+v"(j), "+v"(k) \
+                : "v"(factor));                                                                            \
+    }
+ORRERY_MULTIPLY_ADDS(512, "avx512f")
+ORRERY_MULTIPLY_ADDS(256, "avx2,fma")
+#undef ORRERY_MULTIPLY_ADDS
 
 void add(const std::string& name, void (*run)(), double operations) {
     benchmark::RegisterBenchmark(("machine/" + name).c_str(), [run, operations](benchmark::State& state) {
@@ -62,18 +59,18 @@ void add(const std::string& name, void (*run)(), double operations) {
 
 }  // namespace
 
-__attribute__((target("avx512f"), flatten)) void independent_512() { independent_multiply_adds<__m512>(); }
+void independent_512() { ten_chains_512(); }
 
 void register_machine(const Options& options) {
     add("additions/dependent/x86-64", dependent_additions, 4 * rounds);
     for (const Isa isa : options.isas) {
         if (isa == Isa::avx2) {
             add("multiply-adds/dependent/avx2", dependent_256, rounds);
-            add("multiply-adds/independent/avx2", independent_256, independent_operations);
+            add("multiply-adds/independent/avx2", ten_chains_256, independent_operations);
         }
         if (isa == Isa::avx512) {
             add("multiply-adds/dependent/avx512", dependent_512, rounds);
-            add("multiply-adds/independent/avx512", independent_512, independent_operations);
+            add("multiply-adds/independent/avx512", ten_chains_512, independent_operations);
         }
     }
 }

@@ -1,4 +1,5 @@
-// `orrery_bench`: Google Benchmark's options and a few of its own. Exit status 1 when any result was wrong.
+// `orrery_bench`: Google Benchmark's options and a few of its own. Exit status 1 when any result was wrong, 2 where the
+// command line asks for nothing there is.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "bench/benchmarks.hpp"
 #include "bench/embree_scene.hpp"
 #include "bench/timing.hpp"
+#include "scene/counted.hpp"
 
 using namespace orrery;
 
@@ -47,9 +49,13 @@ int main(int argc, char** argv) {
     }
     std::sort(options.isas.begin(), options.isas.end());
     // Scalar code is what the others are checked against; nobody runs it who has a choice.
-    if (isas.empty())
-        for (const Isa isa : all_isas)
-            if (isa_supported(isa) && (isa != Isa::scalar || best_isa() == isa)) options.isas.push_back(isa);
+    std::vector<Isa> all;
+    for (const Isa isa : all_isas)
+        if (isa_supported(isa) && (isa != Isa::scalar || best_isa() == isa)) all.push_back(isa);
+    if (isas.empty()) options.isas = all;
+    const std::string filter = benchmark::GetBenchmarkFilter();
+    const bool whole = (filter.empty() || filter == "all") && options.isas == all && !options.smoke &&
+                       app.count("--scenes") == 0 && app.count("--spheres") == 0;
     if (options.smoke) {
         options.waves = 1;
         options.random_counts = {8, 1024};
@@ -57,6 +63,8 @@ int main(int argc, char** argv) {
 
     benchmark::AddCustomContext("cpu", cpu_name());
     benchmark::AddCustomContext("embree", bench::embree_version());
+    // The page of figures is made of such results alone.
+    benchmark::AddCustomContext("whole", whole ? "yes" : "no");
     try {
         bench::Worlds worlds(options);
         bench::register_machine(options);
@@ -65,12 +73,17 @@ int main(int argc, char** argv) {
         bench::register_renders(options, worlds);
         bench::register_peers(options, worlds);
         bench::register_builds(options, worlds);
-        benchmark::RunSpecifiedBenchmarks();
+        if (benchmark::RunSpecifiedBenchmarks() == 0) {
+            fmt::print(stderr, "orrery_bench: no benchmark's name matches '{}'; --benchmark_list_tests lists them\n",
+                       filter);
+            return 2;
+        }
     } catch (const std::exception& fault) {
         fmt::print(stderr, "orrery_bench: {}\n", fault.what());
         return 1;
     }
     if (bench::failures() == 0) return 0;
-    fmt::print(stderr, "orrery_bench: {} benchmarks computed something wrong\n", bench::failures());
+    fmt::print(stderr, "orrery_bench: {} computed something wrong\n",
+               counted(static_cast<unsigned>(bench::failures()), "benchmark"));
     return 1;
 }

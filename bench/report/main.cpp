@@ -1,5 +1,5 @@
 // `orrery_bench_report RESULTS.json FOLDER`: the tables of FOLDER/README.md, the plots beside it and the table of all
-// figures, FOLDER/results/CPU.csv.
+// figures, FOLDER/results/CPU.csv. They stay as they are where RESULTS.json is not of a whole run.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -20,6 +20,11 @@ int main(int argc, char** argv) {
     try {
         const fs::path folder = argv[2];
         const Results results = read_results(text_of(argv[1]));
+        if (!results.whole) {
+            fmt::print(stderr, "Not a run of everything: {} and its plots stay as they are; the figures are in {}\n",
+                       (folder / "README.md").string(), argv[1]);
+            return EXIT_SUCCESS;
+        }
         const std::string page = with_blocks(text_of(folder / "README.md"), blocks_of(results));
         for (const auto& [name, svg] : plots_of(results)) write_text(folder / "plots" / name, svg);
         write_text(folder / "results" / (file_name_of(results.cpu) + ".csv"), csv_of(results));

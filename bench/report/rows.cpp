@@ -81,7 +81,10 @@ Results read_results(std::string_view text) {
     try {
         const Json json = Json::parse(text);
         const Json& context = json.at("context");
-        Results results{context.value("cpu", "unknown processor"), context.value("embree", "none"), {}};
+        Results results{context.value("cpu", "unknown processor"),
+                        context.value("embree", "none"),
+                        context.value("whole", "no") == "yes",
+                        {}};
         std::vector<std::pair<std::size_t, Row>> rows;  // by place in the order of registration
         for (const Json& benchmark : json.at("benchmarks")) {
             if (benchmark.value("run_type", "iteration") != "iteration") continue;

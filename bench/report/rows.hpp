@@ -20,6 +20,7 @@ struct Row {
 struct Results {
     std::string cpu;
     std::string embree;  ///< version, "none" where it was not there
+    bool whole = false;  ///< of a run of everything there is to measure, not of a choice
     std::vector<Row> rows;
 
     /// The row of that name, nullptr if there is none.

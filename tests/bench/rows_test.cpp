@@ -38,6 +38,7 @@ const std::string json = R"({
 TEST(Results, KeepTheFastestRepetitionInTheOrderOfRegistration) {
     const Results results = read_results(json);
     EXPECT_EQ(results.cpu, "Some(R) CPU @ 2.50GHz");
+    EXPECT_FALSE(results.whole) << "nothing says that all was measured";
     ASSERT_EQ(results.rows.size(), 5u);
     EXPECT_EQ(results.rows[0].variant, "avx2");
     EXPECT_EQ(results.rows[1].variant, "avx512");
