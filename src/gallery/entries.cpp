@@ -14,7 +14,7 @@ constexpr std::string_view ground = "A ball of radius 1 on a ground of radius 10
 constexpr std::string_view transports = "Naive against next event estimation against both, at equal samples";
 
 constexpr auto entries = std::to_array<GalleryEntry>({
-    {showcase, "As the scene file says", "showcase.png", "showcase.json"},
+    {showcase, "As the scene file says", "still_life.png", "showcase.json"},
 
     {depth, "Scene 1", "depth_01.png", "assignment_01.json --integrator depth --size 320x320 --spp 64"},
     {depth, "Scene 8", "depth_08.png", "assignment_08.json --integrator depth --size 320x320 --spp 64"},
