@@ -29,6 +29,10 @@ std::vector<Decision> Plan::decisions() const {
         list.push_back({part, runs, std::move(reason)});
     };
     decide("double precision", s.precision == Precision::binary64, reason_of_precision(scene_));
+    decide("unit of length", unit_.length != 1,
+           unit_.length != 1 ? fmt::format("{:.3g}, in the middle of {:.2g} to {:.2g}: all scales compute alike",
+                                           unit_.length, unit_.smallest, unit_.largest)
+                             : "the scene's own");
     decide("intersect: tree", n.tree,
            n.tree ? fmt::format("{} spheres in {} nodes of sixteen", scene_.primitives.size(), nodes_)
                   : fmt::format("{} spheres: one loop is faster below {}", scene_.primitives.size(), tree_crossover));

@@ -22,11 +22,13 @@ constexpr std::uint32_t bit(Scattering kind) { return 1u << static_cast<unsigned
 Plan::Plan(Scene scene) : scene_(std::move(scene)) {
     RenderSettings& s = scene_.settings;
     require_valid(scene_);
+    unit_ = length_unit(scene_);
     if (s.estimator == Estimator::stratified) {
         strata_ = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(s.samples)));
     }
     if (s.precision == Precision::automatic) {
-        s.precision = coarse_positions(scene_, Precision::binary32) ? Precision::binary64 : Precision::binary32;
+        const bool coarse = out_of_float_range(scene_, unit_) || coarse_positions(scene_, Precision::binary32);
+        s.precision = coarse ? Precision::binary64 : Precision::binary32;
     }
     plan_camera();
     plan_needs();
@@ -75,15 +77,15 @@ void Plan::plan_tables() {
         spheres.reserve(order.size());
         for (const std::uint32_t i : order) {
             const Primitive& p = scene_.primitives[i];
-            const glm::vec3 centre(p.centre);
-            spheres.push_back({centre.x, centre.y, centre.z, static_cast<float>(p.radius), i});
+            const auto f = [&](double length) { return static_cast<float>(unit_.in_units(length)); };
+            spheres.push_back({f(p.centre.x), f(p.centre.y), f(p.centre.z), f(p.radius), i});
         }
         tree = build_tree(spheres);
         std::ranges::transform(spheres, order.begin(), &BuildSphere::index);
     }
     nodes_ = tree.nodes.size();
     const auto fill = [&]<class Real>(Real) {
-        auto& tables = tables_.emplace<Tables<Real>>(scene_, frame_, order, std::move(tree));
+        auto& tables = tables_.emplace<Tables<Real>>(scene_, frame_, unit_, order, std::move(tree));
         if (!needs_.one_light) return;
         if (needs_.connect_area != 0) tables.choose_lights(scene_, true);
         if ((needs_.connect_point & ~needs_.connect_area) != 0) tables.choose_lights(scene_, false);

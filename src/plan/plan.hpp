@@ -7,6 +7,7 @@
 
 #include "plan/precision.hpp"
 #include "plan/tables.hpp"
+#include "plan/unit.hpp"
 
 namespace orrery {
 
@@ -69,6 +70,8 @@ public:
     /// Half the image plane at distance 1: x in [-half_width, half_width], y likewise.
     double half_width() const { return frame_.half_width; }
     double half_height() const { return frame_.half_height; }
+    /// In which the tables' lengths are.
+    const LengthUnit& unit() const { return unit_; }
 
 private:
     void plan_camera();
@@ -81,6 +84,7 @@ private:
     Needs needs_;
     std::uint32_t strata_ = 1;
     CameraFrame frame_;
+    LengthUnit unit_;
     std::size_t nodes_ = 0;                        ///< of the tree
     std::size_t emitters_ = 0, point_lights_ = 0;  ///< that are switched on
     std::variant<std::monostate, Tables<float>, Tables<double>> tables_;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "plan/unit.hpp"
 #include "scene/printable.hpp"
 
 namespace orrery {
@@ -46,6 +47,7 @@ std::string in_words(const CoarsePositions& coarse, Precision precision) {
 }
 
 std::string reason_of_precision(const Scene& scene) {
+    if (const auto reason = out_of_float_range(scene, length_unit(scene))) return *reason;
     if (const auto coarse = coarse_positions(scene, Precision::binary32)) return in_words(*coarse, Precision::binary32);
     return scene.settings.precision == Precision::binary64 ? "asked for; float would do"
                                                            : "float is good enough for positions in this scene";

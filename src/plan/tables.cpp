@@ -53,11 +53,13 @@ kernels::Scattering scattering_of(const Material& material, Integrator integrato
 bool shines(const glm::dvec3& light) { return light.r != 0 || light.g != 0 || light.b != 0; }
 
 template <class Real>
-Tables<Real>::Tables(const Scene& scene, const CameraFrame& frame, const std::vector<std::uint32_t>& order, Tree tree) {
-    put_camera(scene, frame);
+Tables<Real>::Tables(const Scene& scene, const CameraFrame& frame, const LengthUnit& in,
+                     const std::vector<std::uint32_t>& order, Tree tree)
+    : unit(static_cast<Real>(in.length)) {
+    put_camera(scene, frame, in);
     put_materials(scene);
-    put_spheres(scene, order);
-    put_lights(scene);
+    put_spheres(scene, in, order);
+    put_lights(scene, in);
     if constexpr (std::is_same_v<Real, float>) {
         nodes_ = std::move(tree.nodes);
     } else {
@@ -68,13 +70,14 @@ Tables<Real>::Tables(const Scene& scene, const CameraFrame& frame, const std::ve
 }
 
 template <class Real>
-void Tables<Real>::put_camera(const Scene& scene, const CameraFrame& frame) {
+void Tables<Real>::put_camera(const Scene& scene, const CameraFrame& frame, const LengthUnit& in) {
     const Camera& from = scene.camera;
     const auto f = [](double v) { return static_cast<Real>(v); };
-    camera = {f(from.position.x),  f(from.position.y),    f(from.position.z),   f(frame.right.x),
+    const auto l = [&](double v) { return static_cast<Real>(in.in_units(v)); };
+    camera = {l(from.position.x),  l(from.position.y),    l(from.position.z),   f(frame.right.x),
               f(frame.right.y),    f(frame.right.z),      f(frame.up.x),        f(frame.up.y),
               f(frame.up.z),       f(frame.ahead.x),      f(frame.ahead.y),     f(frame.ahead.z),
-              f(frame.cell_width), f(-frame.cell_height), f(from.aperture / 2), f(from.focal_distance)};
+              f(frame.cell_width), f(-frame.cell_height), l(from.aperture / 2), l(from.focal_distance)};
     double reach = 0;
     for (const Primitive& p : scene.primitives)
         reach = std::max(reach, glm::length(p.centre - from.position) + p.radius + from.aperture / 2);
@@ -102,8 +105,9 @@ void Tables<Real>::put_materials(const Scene& scene) {
 }
 
 template <class Real>
-void Tables<Real>::put_spheres(const Scene& scene, const std::vector<std::uint32_t>& order) {
+void Tables<Real>::put_spheres(const Scene& scene, const LengthUnit& in, const std::vector<std::uint32_t>& order) {
     const auto f = [](double v) { return static_cast<Real>(v); };
+    const auto l = [&](double v) { return static_cast<Real>(in.in_units(v)); };
     // Lights count in the scene's order: which one a random number draws does not hang on the tree.
     std::vector<std::uint32_t> light_of(scene.primitives.size());
     const auto emits = [](const Primitive& p) { return p.emission && shines(*p.emission); };
@@ -112,7 +116,7 @@ void Tables<Real>::put_spheres(const Scene& scene, const std::vector<std::uint32
         if (!emits(p)) continue;
         light_of[i] = static_cast<std::uint32_t>(area_lights.size());
         push3(emission_columns_, 0, *p.emission);
-        area_lights.push_back({0, f(p.centre.x), f(p.centre.y), f(p.centre.z), f(p.radius), f(p.emission->r),
+        area_lights.push_back({0, l(p.centre.x), l(p.centre.y), l(p.centre.z), l(p.radius), f(p.emission->r),
                                f(p.emission->g), f(p.emission->b)});
     }
     // Exactly what they hold: grown by doubling, the columns of 2^20 spheres would end at twice their size.
@@ -121,8 +125,8 @@ void Tables<Real>::put_spheres(const Scene& scene, const std::vector<std::uint32
     std::uint32_t index = 0;
     for (const std::uint32_t primitive : order) {
         const Primitive& p = scene.primitives[primitive];
-        push3(sphere_columns_, 0, p.centre);
-        const Real radius = f(p.radius);
+        for (int c = 0; c < 3; ++c) sphere_columns_[static_cast<std::size_t>(c)].push_back(l(p.centre[c]));
+        const Real radius = l(p.radius);
         sphere_columns_[3].push_back(radius);
         sphere_columns_[4].push_back(radius * radius);
         sphere_columns_[5].push_back(1 / radius);
@@ -150,12 +154,14 @@ void Tables<Real>::put_spheres(const Scene& scene, const std::vector<std::uint32
 }
 
 template <class Real>
-void Tables<Real>::put_lights(const Scene& scene) {
+void Tables<Real>::put_lights(const Scene& scene, const LengthUnit& in) {
     const auto f = [](double v) { return static_cast<Real>(v); };
+    const auto l = [&](double v) { return static_cast<Real>(in.in_units(v)); };
+    const auto i = [&](double v) { return static_cast<Real>(in.intensity(v)); };
     for (const PointLight& light : scene.point_lights) {
         if (!shines(light.intensity)) continue;
-        point_lights.push_back({f(light.position.x), f(light.position.y), f(light.position.z), f(light.intensity.r),
-                                f(light.intensity.g), f(light.intensity.b)});
+        point_lights.push_back({l(light.position.x), l(light.position.y), l(light.position.z), i(light.intensity.r),
+                                i(light.intensity.g), i(light.intensity.b)});
     }
     const glm::dvec3& b = scene.background;
     pad(emission_columns_);

@@ -7,6 +7,7 @@
 #include "kernels/tables.hpp"
 #include "plan/light_choice.hpp"
 #include "plan/tree.hpp"
+#include "plan/unit.hpp"
 #include "scene/scene.hpp"
 
 namespace orrery {
@@ -18,12 +19,14 @@ struct CameraFrame {
     double cell_width = 0, cell_height = 0;  ///< of a pixel's cell there
 };
 
-/// The tables stay valid for the life of this, moves included. Every number of the scene is rounded to Real once.
+/// The tables stay valid for the life of this, moves included. Every number of the scene is rounded to Real once;
+/// lengths are in the plan's unit, and intensities of point lights in its square.
 template <class Real>
 class Tables {
 public:
     /// Sphere k of the table is primitive order[k]; `tree` is over them in that order, empty for a linear table.
-    Tables(const Scene& scene, const CameraFrame& frame, const std::vector<std::uint32_t>& order, Tree tree);
+    Tables(const Scene& scene, const CameraFrame& frame, const LengthUnit& unit,
+           const std::vector<std::uint32_t>& order, Tree tree);
     Tables(const Tables&) = delete;
     Tables& operator=(const Tables&) = delete;
 
@@ -40,16 +43,18 @@ public:
     kernels::EmissionTable<Real> emission;
     std::vector<kernels::PointLight<Real>> point_lights;
     std::vector<kernels::AreaLight<Real>> area_lights;
-    /// The enclosing volume's distance for DEPTH: larger than any hit distance in the scene.
+    /// For DEPTH, whose distances are the scene's: how long a unit is, and the enclosing volume's distance, larger than
+    /// any hit's.
+    Real unit = 1;
     Real enclosing_distance = 1;
 
 private:
     using Word = kernels::WordOf<Real>;
 
-    void put_camera(const Scene& scene, const CameraFrame& frame);
+    void put_camera(const Scene& scene, const CameraFrame& frame, const LengthUnit& unit);
     void put_materials(const Scene& scene);
-    void put_spheres(const Scene& scene, const std::vector<std::uint32_t>& order);
-    void put_lights(const Scene& scene);
+    void put_spheres(const Scene& scene, const LengthUnit& unit, const std::vector<std::uint32_t>& order);
+    void put_lights(const Scene& scene, const LengthUnit& unit);
 
     std::vector<kernels::TreeNode<Real>> nodes_;
     std::array<std::vector<Real>, 6> sphere_columns_;    // cx cy cz radius, its square and inverse

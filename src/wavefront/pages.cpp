@@ -252,7 +252,7 @@ void trace_distances(Wave<Real>& w) {
     intersect(w, generate(w), 0);
     for (std::uint32_t slot = 0; slot < w.count; ++slot) {
         const bool missed = s.hits.id[slot] == kernels::no_sphere;
-        const Real distance = missed ? w.tables.enclosing_distance : s.hits.t[slot];
+        const Real distance = missed ? w.tables.enclosing_distance : s.hits.t[slot] * w.tables.unit;
         for (std::size_t c = 0; c < 3; ++c) s.slots.radiance[4 * slot + c] = distance;
     }
 }

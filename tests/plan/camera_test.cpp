@@ -19,7 +19,7 @@ Frame frame_of(const dvec3& position, const dvec3& target) {
     scene.camera.target = target;
     const Plan plan(scene);
     const auto& c = plan.tables().camera;
-    EXPECT_EQ((dvec3{c.px, c.py, c.pz}), position);
+    EXPECT_EQ(of_scene(plan, dvec3{c.px, c.py, c.pz}), position);
     return {{c.xx, c.xy, c.xz}, {c.yx, c.yy, c.yz}, {c.zx, c.zy, c.zz}};
 }
 
@@ -89,8 +89,8 @@ TEST(Lens, HasHalfTheApertureForRadius) {
     scene.camera.aperture = 0.5;
     scene.camera.focal_distance = 7;
     const Plan plan(scene);
-    EXPECT_EQ(plan.tables().camera.lens_radius, 0.25f);
-    EXPECT_EQ(plan.tables().camera.focal_distance, 7.0f);
+    EXPECT_EQ(of_scene(plan, plan.tables().camera.lens_radius), 0.25);
+    EXPECT_EQ(of_scene(plan, plan.tables().camera.focal_distance), 7.0);
 }
 
 TEST(EnclosingDistance, ExceedsEveryHit) {

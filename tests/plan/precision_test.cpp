@@ -86,13 +86,13 @@ TEST(Precision, NumbersOfTheSceneReachDoublesTablesWhole) {
     const Plan plan(scene);
     const auto& t = plan.tables<double>();
     for (std::size_t i = 0; i < 2; ++i) {
-        EXPECT_EQ(t.spheres.cy[i], scene.primitives[i].centre.y);
-        EXPECT_EQ(t.spheres.radius[i], scene.primitives[i].radius);
-        EXPECT_EQ(t.spheres.radius2[i], scene.primitives[i].radius * scene.primitives[i].radius);
-        EXPECT_EQ(t.spheres.inverse_radius[i], 1 / scene.primitives[i].radius);
+        EXPECT_EQ(of_scene(plan, t.spheres.cy[i]), scene.primitives[i].centre.y);
+        EXPECT_EQ(of_scene(plan, t.spheres.radius[i]), scene.primitives[i].radius);
+        EXPECT_EQ(t.spheres.radius2[i], t.spheres.radius[i] * t.spheres.radius[i]);
+        EXPECT_EQ(t.spheres.inverse_radius[i], 1 / t.spheres.radius[i]);
     }
-    EXPECT_EQ(t.camera.px, 0.1);
-    EXPECT_EQ(t.camera.pz, -1e7 / 3);
+    EXPECT_EQ(of_scene(plan, t.camera.px), 0.1);
+    EXPECT_EQ(of_scene(plan, t.camera.pz), -1e7 / 3);
     EXPECT_THROW(plan.tables<float>(), std::bad_variant_access);
 }
 

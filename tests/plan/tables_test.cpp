@@ -25,8 +25,8 @@ TEST(SphereTable, HoldsPrimitivesInTheirOrder) {
     const Plan plan(scene);
     const auto& s = plan.tables().spheres;
     ASSERT_EQ(s.count, 3u);
-    EXPECT_EQ((dvec3{s.cx[2], s.cy[2], s.cz[2]}), (dvec3{1, 2, 3}));
-    EXPECT_EQ(s.radius[2], 4);
+    EXPECT_EQ(of_scene(plan, dvec3{s.cx[2], s.cy[2], s.cz[2]}), (dvec3{1, 2, 3}));
+    EXPECT_EQ(of_scene(plan, s.radius[2]), 4);
     EXPECT_EQ(s.surface[0] & kernels::surface_material_mask, 0u);
     EXPECT_EQ(s.surface[1] & kernels::surface_material_mask, 1u);
     EXPECT_EQ(s.surface[2] & kernels::surface_material_mask, 0u) << "two spheres may share a material";
@@ -51,8 +51,8 @@ TEST(SphereTable, HoldsManyPrimitivesInTheirTreesOrder) {
     for (std::uint32_t i = 0; i < scene.primitives.size(); ++i) {
         const Primitive& p = scene.primitives[i];
         std::uint32_t k = 0;
-        while (k < s.count && (s.radius[k] != static_cast<float>(p.radius) || s.cx[k] != p.centre.x ||
-                               s.cy[k] != p.centre.y || s.cz[k] != p.centre.z))
+        while (k < s.count && (of_scene(plan, s.radius[k]) != p.radius ||
+                               of_scene(plan, dvec3{s.cx[k], s.cy[k], s.cz[k]}) != p.centre))
             ++k;
         ASSERT_LT(k, s.count) << "primitive " << i << " is lost";
         moved += k != i;
@@ -97,16 +97,16 @@ TEST(Lights, AreTheSpheresThatEmitAndThePoints) {
         EXPECT_TRUE(emits(plan, sphere));
         EXPECT_EQ(plan.tables().spheres.light[sphere], i);
         EXPECT_EQ(light.sphere, sphere);
-        EXPECT_EQ((dvec3{light.cx, light.cy, light.cz}), scene.primitives[sphere].centre);
-        EXPECT_EQ(light.radius, 1);
+        EXPECT_EQ(of_scene(plan, dvec3{light.cx, light.cy, light.cz}), scene.primitives[sphere].centre);
+        EXPECT_EQ(of_scene(plan, light.radius), 1);
         EXPECT_EQ((dvec3{light.r, light.g, light.b}), *scene.primitives[sphere].emission);
         const auto& table = plan.tables().emission;
         EXPECT_EQ((dvec3{table.r[i], table.g[i], table.b[i]}), *scene.primitives[sphere].emission);
     }
     ASSERT_EQ(plan.tables().point_lights.size(), 1u);
     const auto& point = plan.tables().point_lights[0];
-    EXPECT_EQ((dvec3{point.px, point.py, point.pz}), (dvec3{0, 5, 0}));
-    EXPECT_EQ((dvec3{point.r, point.g, point.b}), (dvec3{7, 8, 9}));
+    EXPECT_EQ(of_scene(plan, dvec3{point.px, point.py, point.pz}), (dvec3{0, 5, 0}));
+    EXPECT_EQ(of_scene(plan, of_scene(plan, dvec3{point.r, point.g, point.b})), (dvec3{7, 8, 9})) << "W/sr";
 }
 
 TEST(MaterialTable, HoldsEveryNumber) {

@@ -48,6 +48,10 @@ inline void add_point_light(Scene& scene, const dvec3& intensity = dvec3{1}) {
     scene.point_lights.push_back({"", {0, 5, 0}, intensity});
 }
 
+/// A length of the tables, in the scene's unit.
+inline double of_scene(const Plan& plan, double length) { return length * plan.unit().length; }
+inline dvec3 of_scene(const Plan& plan, const dvec3& lengths) { return lengths * plan.unit().length; }
+
 inline Needs needs_of(const Scene& scene) { return Plan(scene).needs(); }
 
 inline constexpr std::uint32_t bit(kernels::Scattering kind) { return 1u << static_cast<unsigned>(kind); }
