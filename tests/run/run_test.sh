@@ -3,6 +3,7 @@
 # shellcheck disable=SC2016 # what stands in single quotes is for the stand-ins
 # they were called. Ends with 1 where anything was not as it should be.
 set -eu
+unset CI
 
 script=$1
 folder=$(mktemp -d)
@@ -164,7 +165,9 @@ fresh
 rm "$checkout/build/build.ninja"
 run_it render a.json
 does_not_call ORRERY_WERROR
-CI=true run_it render a.json
+export CI=true
+run_it render a.json
+unset CI
 calls '-DORRERY_WERROR=ON'
 
 case='misspelt commands'
