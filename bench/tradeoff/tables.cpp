@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "bench/tradeoff/output.hpp"
+#include "scene/counted.hpp"
 
 namespace orrery::tradeoff {
 
@@ -26,11 +27,11 @@ constexpr const char* few_rounds =
 
 std::string setting(const Outcome& outcome) {
     return fmt::format(
-               "{}, {} threads, {}. {} rounds in {:.0f} s: {} combinations of scene and settings, each rendered at up "
+               "{}, {}, {}. {} rounds in {:.0f} s: {} combinations of scene and settings, each rendered at up "
                "to four "
                "numbers of samples, the largest of about {:.0f} ms of processor time; images of {} pixels or about.\n",
-               processor(), std::thread::hardware_concurrency(), isa_name(best_isa()), outcome.rounds, outcome.seconds,
-               outcome.cells.size(), 1e3 * outcome.last_level_seconds,
+               processor(), counted(std::thread::hardware_concurrency(), "thread"), isa_name(best_isa()),
+               outcome.rounds, outcome.seconds, outcome.cells.size(), 1e3 * outcome.last_level_seconds,
                outcome.subjects.front().usual.width * outcome.subjects.front().usual.height) +
            (outcome.rounds < 8 ? few_rounds : "");
 }

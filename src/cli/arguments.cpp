@@ -3,15 +3,19 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <limits>
 #include <sstream>
 
 #include "cli/compare_arguments.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/generate_arguments.hpp"
+#include "cli/help.hpp"
 #include "cli/option.hpp"
 #include "cli/values.hpp"
 #include "cli/version.hpp"
+#include "scene/printable.hpp"
+#include "scene/spelling.hpp"
 
 namespace orrery {
 namespace {
@@ -19,7 +23,6 @@ namespace {
 constexpr std::uint32_t any = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t most_threads = 1024;
 constexpr std::uint32_t largest_wave = 1u << 20;
-constexpr std::size_t option_column = 38;
 
 template <class Value, std::size_t count>
 void add_choice(CLI::App& app, const char* name, const Words<Value, count>& words, const std::string& help,
@@ -159,39 +162,68 @@ void add_quiet(CLI::App& app, Arguments& arguments) {
 
 constexpr const char* render_example =
     "Example: a quick look, then the real thing in two formats\n"
-    "  orrery render scenes/assignment_08.json --size 256x256 --spp 16 -o look.png\n"
-    "  orrery render scenes/assignment_08.json --error 2% -o image.png -o image.exr\n"
+    "  {0} render scenes/assignment_08.json --size 256x256 --spp 16 -o look.png\n"
+    "  {0} render scenes/assignment_08.json --error 2% -o image.png -o image.exr\n"
     "\n"
-    "Standard output names the images written, one on a line. Exit code: 0 written, 1 the work failed,\n"
-    "2 bad usage or a bad scene.";
+    "Standard output names the images written, one on a line. Exit code: 0 written, 1 the work failed, 2 bad usage or "
+    "a "
+    "bad scene.";
 
 constexpr const char* info_example =
-    "Prints what render would do with the same options: the settings, the memory, and which parts of the\n"
-    "pipeline run and why.\n"
+    "Prints what render would do with the same options: the settings, the memory, and which parts of the pipeline run "
+    "and why.\n"
     "\n"
     "Example:\n"
-    "  orrery info scenes/assignment_08.json --transport naive";
+    "  {0} info scenes/assignment_08.json --transport naive";
+
+/// The words that nobody knows, and what they could have meant. Empty where there is none.
+std::string unknown_words(const CLI::App& app) {
+    const std::vector<std::string> words = app.remaining();
+    if (words.empty()) return "";
+    // A misspelt option's value may be taken for the scene, and the scene is then among the rest.
+    const auto option = std::ranges::find_if(words, [](const std::string& word) { return word.starts_with('-'); });
+    const std::string& word = option != words.end() ? *option : words.front();
+    std::vector<std::string> names;
+    if (option != words.end()) {
+        for (const CLI::Option* known : app.get_options()) {
+            for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
+            for (const std::string& name : known->get_snames()) names.push_back("-" + name);
+        }
+    } else {
+        for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const std::string_view near = Spelling().likely(word.substr(0, word.find('=')), known);
+    const char* const expected = option != words.end() ? "an option that --help names"
+                                 : names.empty()       ? "no further argument"
+                                                       : "a command, render, info, generate or compare";
+    return fmt::format("found {}, expected {}{}", in_quotes(word), expected,
+                       near.empty() ? "" : fmt::format("; did you mean {}?", near));
+}
 
 Answer failure(const CLI::App& app, const CLI::ParseError& error) {
     const auto chosen = app.get_subcommands();
-    const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
+    std::string fault = unknown_words(chosen.empty() ? app : *chosen.front());
     // CLI11 says that a subcommand is required, not which there are.
-    const std::string fault = chosen.empty() && error.get_name() == "RequiredError"
-                                  ? "expected a command, render, info, generate or compare"
-                                  : error.what();
-    return {exit_code::misused, "", fmt::format("orrery: error: {}\nTry: orrery{} --help\n", fault, command)};
+    if (fault.empty() && chosen.empty() && error.get_name() == "RequiredError")
+        fault = "expected a command, render, info, generate or compare";
+    if (fault.empty()) fault = error.what();
+    const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
+    return {exit_code::misused, "",
+            fmt::format("orrery: error: {}\nTry: {}{} --help\n", fault, typed_command(), command)};
 }
 
 }  // namespace
 
 std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv) {
     Arguments arguments;
-    CLI::App app("Renders worlds of spheres: a scene file in, an image out.", "orrery");
-    app.get_formatter()->column_width(option_column);
+    const std::string typed = typed_command();
+    CLI::App app("Renders worlds of spheres: a scene file in, an image out.", typed);
+    app.formatter(help_formatter(help_columns()));
     app.set_version_flag("--version", fmt::format("orrery {}", version()), "Print the version");
     app.set_help_flag("-h,--help", "Print this help");
     app.require_subcommand(1);
-    app.footer("Help on a command: orrery render --help");
+    app.footer(fmt::format("Help on a command:\n  {} render --help", typed));
 
     CLI::App& render = *app.add_subcommand("render", "Render a scene to an image");
     add_scene(render, arguments);
@@ -202,7 +234,7 @@ std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv
     add_machine(render, arguments);
     add_reports(render, arguments);
     add_quiet(render, arguments);
-    render.footer(render_example);
+    render.footer(fmt::format(render_example, typed));
 
     CLI::App& info = *app.add_subcommand("info", "Show how a scene would be rendered, and why so");
     add_scene(info, arguments);
@@ -211,7 +243,7 @@ std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv
     add_method(info, arguments.overrides);
     add_machine(info, arguments);
     add_quiet(info, arguments);
-    info.footer(info_example);
+    info.footer(fmt::format(info_example, typed));
 
     CLI::App& generate = *app.add_subcommand("generate", "Write a scene of as many spheres as you like");
     add_generation(generate, arguments.generation);

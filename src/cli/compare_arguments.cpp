@@ -1,5 +1,8 @@
 #include "cli/compare_arguments.hpp"
 
+#include <fmt/format.h>
+
+#include "cli/help.hpp"
 #include "cli/option.hpp"
 #include "cli/values.hpp"
 
@@ -7,17 +10,20 @@ namespace orrery {
 namespace {
 
 constexpr const char* example =
-    "Prints, one \"name value\" a line: the mean squared error and its root (mse, rmse); the mean of\n"
-    "(a - b)^2 / (b^2 + 0.01), B being the reference (mrse); the largest |a - b| and its pixel; the |a - b|\n"
-    "that 99.9 % of the values do not exceed; the mean of a - b, over all and by channel. With standard\n"
-    "errors also how many of them the mean differs (z): beyond 4 it is hardly noise. An image without\n"
-    "--error counts as exact. Pixels that are not finite are counted and left out; a limit is then exceeded.\n"
+    "Prints, one \"name value\" a line: the mean squared error and its root (mse, rmse); the mean of "
+    "(a - b)^2 / (b^2 + 0.01), B being the reference (mrse); the largest |a - b| and its pixel; the |a - b| that 99.9 "
+    "% "
+    "of the values do not exceed; the mean of a - b, over all and by channel. With standard errors also how many of "
+    "them "
+    "the mean differs (z): beyond 4 it is hardly noise. An image without --error counts as exact. Pixels that are not "
+    "finite are counted and left out; a limit is then exceeded.\n"
     "\n"
     "Example: has the picture changed?\n"
-    "  orrery compare new.exr reference.exr --max-rmse 0.001 --difference difference.png\n"
+    "  {} compare new.exr reference.exr --max-rmse 0.001 --difference difference.png\n"
     "\n"
-    "Exit code: 0 compared and within the limits, 1 the work failed (a file that cannot be read), 2 bad usage\n"
-    "or images of different size, 3 a limit is exceeded.";
+    "Exit code: 0 compared and within the limits, 1 the work failed (a file that cannot be read), 2 bad usage or "
+    "images "
+    "of different size, 3 a limit is exceeded.";
 
 void add_file(CLI::App& app, const char* name, const char* group, const std::string& help,
               std::optional<std::filesystem::path>& file) {
@@ -52,7 +58,7 @@ void add_comparison(CLI::App& app, ComparisonRequest& request) {
                "Write the figures as JSON, too; - is standard output, which then holds that alone",
                [&](const std::string& text) { request.json = text; })
         ->group("Reports");
-    app.footer(example);
+    app.footer(fmt::format(example, typed_command()));
 }
 
 }  // namespace orrery

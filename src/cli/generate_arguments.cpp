@@ -1,7 +1,10 @@
 #include "cli/generate_arguments.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 
+#include "cli/help.hpp"
 #include "cli/option.hpp"
 #include "cli/values.hpp"
 
@@ -12,15 +15,17 @@ namespace {
 constexpr std::uint32_t most_spheres = 10'000'000;
 
 constexpr const char* example =
-    "Kinds: random (evenly in a ball), lattice (a cube of rows), cluster (dense knots, emptiness between),\n"
-    "cosmos (spiral galaxies; radii follow a power law). Each frames itself, whatever the number.\n"
+    "Kinds: random (evenly in a ball), lattice (a cube of rows), cluster (dense knots, emptiness between), cosmos "
+    "(spiral "
+    "galaxies; radii follow a power law). Each frames itself, whatever the number.\n"
     "\n"
     "Example: a million spheres, and a look at them\n"
-    "  orrery generate cosmos --spheres 1000000 -o cosmos.json\n"
-    "  orrery render cosmos.json -o cosmos.png\n"
+    "  {0} generate cosmos --spheres 1000000 -o cosmos.json\n"
+    "  {0} render cosmos.json -o cosmos.png\n"
     "\n"
-    "A file holds about 150 bytes a sphere, one shape and one primitive a line; it is written whole or not\n"
-    "at all. Exit code: 0 written, 1 the work failed, 2 bad usage.";
+    "A file holds about 150 bytes a sphere, one shape and one primitive a line; it is written whole or not at all. "
+    "Exit "
+    "code: 0 written, 1 the work failed, 2 bad usage.";
 
 }  // namespace
 
@@ -44,7 +49,7 @@ void add_generation(CLI::App& app, Generation& generation) {
                    if (text != "-") generation.output = text;
                })
         ->group("Scene");
-    app.footer(example);
+    app.footer(fmt::format(example, typed_command()));
 }
 
 }  // namespace orrery

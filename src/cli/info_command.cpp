@@ -8,6 +8,7 @@
 #include "cli/values.hpp"
 #include "cli/words.hpp"
 #include "plan/plan.hpp"
+#include "scene/counted.hpp"
 #include "scene/image_memory.hpp"
 #include "wavefront/wave_storage.hpp"
 
@@ -41,7 +42,8 @@ std::string method_text(const RenderSettings& s) {
     if (s.integrator == Integrator::path_tracing) {
         text += fmt::format(", transport {}, light choice {}, roulette {}", word_for(transport_words, s.transport),
                             word_for(light_choice_words, s.light_choice), word_for(switch_words, s.roulette));
-        if (s.roulette && s.roulette_from > 0) text += fmt::format(" after more than {} events", s.roulette_from);
+        if (s.roulette && s.roulette_from > 0)
+            text += fmt::format(" after more than {}", counted(s.roulette_from, "event"));
     }
     return text + fmt::format(", light sampling {}", word_for(light_sampling_words, s.light_sampling));
 }

@@ -5,6 +5,7 @@
 #include "cli/commands.hpp"
 #include "cli/late_notice.hpp"
 #include "cli/standard_streams.hpp"
+#include "scene/counted.hpp"
 #include "scene/read.hpp"
 
 namespace orrery {
@@ -30,7 +31,7 @@ std::optional<Scene> load_scene(const Arguments& arguments) {
 
 Plan plan_visibly(const Arguments& arguments, Scene scene) {
     const LateNotice notice(!arguments.quiet,
-                            fmt::format("building a tree of {} spheres ...", scene.primitives.size()));
+                            fmt::format("building a tree of {} ...", counted(scene.primitives.size(), "sphere")));
     // The builder takes all cores it is granted.
     const auto cores = static_cast<std::size_t>(tbb::info::default_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,

@@ -8,9 +8,6 @@
 
 namespace orrery {
 
-/// Lines as wide as the help's column: CLI11 indents the lines of a description but does not make them.
-std::string wrapped(const std::string& text);
-
 /// `read` takes the option's text; its UsageError gets the option's name in front. `label` stands for the value in the
 /// help.
 template <class Read>
@@ -22,7 +19,7 @@ CLI::Option* add_option(CLI::App& app, const char* name, const std::string& labe
             throw CLI::ValidationError(name, error.what());
         }
     };
-    return app.add_option_function<std::string>(name, named, wrapped(help))->type_name(label);
+    return app.add_option_function<std::string>(name, named, help)->type_name(label);
 }
 
 }  // namespace orrery

@@ -26,6 +26,8 @@ std::size_t usable_columns() {
 std::string duration_text(double seconds) {
     // Beyond a century nobody counts, and the conversion below stays in range.
     const auto whole = static_cast<std::uint64_t>(std::ceil(std::clamp(seconds, 0.0, 3.2e9)));
+    constexpr std::uint64_t day = 24 * 3600;
+    if (whole >= 2 * day) return fmt::format("{} days", (whole + day / 2) / day);
     if (whole < 60) return fmt::format("{} s", whole);
     if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
     return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);

@@ -14,7 +14,7 @@ namespace orrery {
 std::string progress_line(double fraction, std::uint64_t rays, double seconds, std::size_t columns,
                           double error = std::numeric_limits<double>::infinity());
 
-/// "7 s", "1:23" or "4:05:06".
+/// "7 s", "1:23", "4:05:06", and from two days on "28 days".
 std::string duration_text(double seconds);
 
 /// How many characters a line on the terminal of standard error may take, at most 79. One less than it has: in the last

@@ -16,6 +16,7 @@
 #include "cli/statistics.hpp"
 #include "cli/summary.hpp"
 #include "image/atomic_file.hpp"
+#include "scene/counted.hpp"
 
 namespace orrery {
 namespace {
@@ -71,6 +72,12 @@ void warn_of_precision(const Plan& plan) {
     }
 }
 
+void note_fewer_samples(const Plan& plan, const Goal& goal) {
+    if (goal.asked() || plan.samples() == plan.settings().samples) return;
+    print_message(fmt::format("orrery: note: stratified takes {} per pixel, the square number below the {} asked\n",
+                              counted(plan.samples(), "sample"), plan.settings().samples));
+}
+
 void write_stats(const Outputs& outputs, const std::string& json) {
     if (outputs.stats_to_standard_output) print_result(json);
     if (outputs.stats) write_atomically(*outputs.stats, std::as_bytes(std::span(json)));
@@ -86,7 +93,10 @@ int render_command(const Arguments& arguments) {
     require_writable(outputs, *scene);
 
     const Plan plan = plan_visibly(arguments, std::move(*scene));
-    if (!arguments.quiet) warn_of_precision(plan);
+    if (!arguments.quiet) {
+        warn_of_precision(plan);
+        note_fewer_samples(plan, goal);
+    }
     const auto outcome = render_until_signal(plan, arguments, goal);
     if (const auto* stopped = std::get_if<Stopped>(&outcome)) return exit_code::ended_by(stopped->signal);
     const auto& [image, standard_error, stats] = std::get<RenderResult>(outcome);
@@ -103,7 +113,7 @@ int render_command(const Arguments& arguments) {
     if (!arguments.quiet) {
         print_message(summary(plan, goal, stats));
         if (stats.dropped_samples > 0)
-            print_warning(fmt::format("{} samples were not finite and were dropped", stats.dropped_samples));
+            print_warning(fmt::format("{} not finite and dropped", counted(stats.dropped_samples, "sample")));
     }
     if (arguments.profile) print_message(profile_table(stats));
     // Where the statistics take standard output they name the images, and it stays one JSON document.

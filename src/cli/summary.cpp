@@ -6,12 +6,14 @@
 
 #include "cli/progress.hpp"
 #include "cli/statistics.hpp"
+#include "scene/counted.hpp"
 
 namespace orrery {
 namespace {
 
 std::string samples_text(const RenderStats& stats) {
-    if (stats.passes == 1) return fmt::format("{} samples per pixel", stats.samples_per_pixel);
+    if (stats.passes == 1)
+        return fmt::format("{} sample{} per pixel", stats.samples_per_pixel, stats.samples_per_pixel == 1 ? "" : "s");
     std::string text = fmt::format("{:.0f} samples per pixel", stats.samples_per_pixel);
     if (stats.least_samples != stats.most_samples)
         text += fmt::format(" ({} to {})", stats.least_samples, stats.most_samples);
@@ -42,9 +44,9 @@ std::string stop_text(const Goal& goal, StopReason reason) {
 
 std::string summary(const Plan& plan, const Goal& goal, const RenderStats& stats) {
     const RenderSettings& settings = plan.settings();
-    return fmt::format("{}: {} x {}, {} in {:.2f} s, {:.1f} Mrays/s ({}, {} threads){}{}\n", plan.scene().file.string(),
+    return fmt::format("{}: {} x {}, {} in {:.2f} s, {:.1f} Mrays/s ({}, {}){}{}\n", plan.scene().file.string(),
                        settings.width, settings.height, samples_text(stats), stats.seconds,
-                       rays_per_second(stats) / 1e6, isa_name(stats.isa), stats.threads,
+                       rays_per_second(stats) / 1e6, isa_name(stats.isa), counted(stats.threads, "thread"),
                        error_text(stats.error.relative), stop_text(goal, stats.stopped_by));
 }
 

@@ -15,6 +15,7 @@
 #include "cli/statistics.hpp"
 #include "gallery/entries.hpp"
 #include "image/atomic_file.hpp"
+#include "scene/counted.hpp"
 
 namespace fs = std::filesystem;
 using namespace orrery;
@@ -48,10 +49,10 @@ RenderStats render_entry(const GalleryEntry& entry, const fs::path& scenes, cons
 std::string page_of(const std::map<std::string_view, RenderStats>& stats) {
     const RenderStats& any = stats.begin()->second;
     std::string page = fmt::format(
-        "# Gallery\n\nMade by `./run gallery`, which renders the pictures and writes this page ({}, {} threads; "
+        "# Gallery\n\nMade by `./run gallery`, which renders the pictures and writes this page ({}, {}; "
         "seconds "
         "are of rendering, rays are closest-hit and shadow rays together).\n",
-        isa_name(any.isa), any.threads);
+        isa_name(any.isa), counted(any.threads, "thread"));
     std::string_view section;
     for (const GalleryEntry& entry : gallery()) {
         if (entry.section != section) {

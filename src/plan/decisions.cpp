@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "plan/plan.hpp"
+#include "scene/counted.hpp"
 
 namespace orrery {
 
@@ -34,8 +35,10 @@ std::vector<Decision> Plan::decisions() const {
                                            unit_.length, unit_.smallest, unit_.largest)
                              : "the scene's own");
     decide("intersect: tree", n.tree,
-           n.tree ? fmt::format("{} spheres in {} nodes of sixteen", scene_.primitives.size(), nodes_)
-                  : fmt::format("{} spheres: one loop is faster below {}", scene_.primitives.size(), tree_crossover));
+           n.tree ? fmt::format("{} in {} of sixteen", counted(scene_.primitives.size(), "sphere"),
+                                counted(nodes_, "node"))
+                  : fmt::format("{}: one loop is faster below {}", counted(scene_.primitives.size(), "sphere"),
+                                tree_crossover));
     decide("generate: lens", n.lens,
            n.lens ? fmt::format("aperture {}", scene_.camera.aperture) : "the camera is a pinhole");
     decide("random numbers: points", n.points,
@@ -72,15 +75,15 @@ std::vector<Decision> Plan::decisions() const {
            : s.light_choice == LightChoice::all   ? fmt::format("all {} lights from every vertex", lights)
            : s.light_choice == LightChoice::power ? fmt::format("one of {} lights by power", lights)
                                                   : fmt::format("one of {} lights, all alike", lights));
-    decide(
-        "roulette: play", n.roulette,
-        n.integrator == Integrator::whitted ? "Whitted ray tracing cuts weak branches instead"
-        : n.roulette && s.roulette_from > 0
-            ? fmt::format("paths of little throughput end, if they have scattered more than {} times", s.roulette_from)
-        : n.roulette                ? "paths of little throughput end early"
-        : s.roulette && s.depth > 0 ? fmt::format("no path scatters more than {} times", s.roulette_from)
-        : s.roulette                ? "no path scatters"
-                                    : "switched off; dead rays are still compacted away");
+    decide("roulette: play", n.roulette,
+           n.integrator == Integrator::whitted ? "Whitted ray tracing cuts weak branches instead"
+           : n.roulette && s.roulette_from > 0
+               ? fmt::format("paths of little throughput end, if they have scattered more than {}",
+                             counted(s.roulette_from, "time"))
+           : n.roulette                ? "paths of little throughput end early"
+           : s.roulette && s.depth > 0 ? fmt::format("no path scatters more than {}", counted(s.roulette_from, "time"))
+           : s.roulette                ? "no path scatters"
+                                       : "switched off; dead rays are still compacted away");
     decide("branches", n.branches, n.branches ? "dielectrics are followed both ways" : "nothing is followed both ways");
     return list;
 }

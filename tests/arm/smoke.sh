@@ -37,7 +37,8 @@ unpack_libraries() {
 
 [ -f "$folder/unpacked" ] || unpack_libraries "$@"
 
-shared=$libraries/usr/lib/aarch64-linux-gnu
+# Debian 12 has some of them in /lib still.
+shared=$libraries/usr/lib/aarch64-linux-gnu:$libraries/lib/aarch64-linux-gnu
 cmake -S "$root" -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DORRERY_TESTS=OFF -DORRERY_WERROR=ON \
     -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++ \
     -DCMAKE_FIND_ROOT_PATH="$libraries" -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER \

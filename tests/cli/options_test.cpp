@@ -11,6 +11,7 @@
 namespace orrery::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -55,6 +56,36 @@ TEST(Options, SeedChangesTheNoise) {
     const std::string image = image_of("tests/diffuse_area.json", {});
     EXPECT_EQ(image_of("tests/diffuse_area.json", {"--seed", "0"}), image);
     EXPECT_NE(image_of("tests/diffuse_area.json", {"--seed", "4294967295"}), image);
+}
+
+TEST(Options, StratifiedSaysWhenItTakesFewerSamplesThanAsked) {
+    const auto said = [](Arguments options) {
+        const TemporaryFolder folder;
+        Arguments arguments = {"render", scene_file("tests/depth.json"), "--size", "4x4",
+                               "-o",     (folder / "x.pfm").string()};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Outcome outcome = orrery(arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+        return outcome.error;
+    };
+    EXPECT_THAT(said({"--spp", "8"}), HasSubstr("orrery: note: stratified takes 4 samples per pixel"));
+    EXPECT_THAT(said({"--spp", "3"}), HasSubstr("takes 1 sample per pixel, the square number below the 3 asked\n"));
+    for (const Arguments& exact :
+         {Arguments{"--spp", "9"}, {"--spp", "8", "--estimator", "sobol"}, {"--spp", "8", "--estimator", "uniform"}})
+        EXPECT_THAT(said(exact), Not(HasSubstr("note")));
+    EXPECT_EQ(said({"--spp", "8", "--quiet"}), "");
+    EXPECT_EQ(stats_of("tests/depth.json", {"--size", "4x4", "--spp", "8"})["samples_per_pixel"], 4);
+}
+
+TEST(Options, OneIsSingular) {
+    const TemporaryFolder folder;
+    const auto said = [&](const char* threads, const char* samples) {
+        return orrery({"render", scene_file("tests/depth.json"), "--size", "4x4", "-o", (folder / "x.pfm").string(),
+                       "--threads", threads, "--spp", samples})
+            .error;
+    };
+    EXPECT_THAT(said("1", "1"), AllOf(HasSubstr(", 1 thread)"), HasSubstr(" 1 sample per pixel")));
+    EXPECT_THAT(said("2", "4"), AllOf(HasSubstr(", 2 threads)"), HasSubstr(" 4 samples per pixel")));
 }
 
 TEST(Options, IntegratorDepthCastsOneRayPerSample) {

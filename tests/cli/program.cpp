@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <stdexcept>
 
 namespace orrery::test {
@@ -26,6 +27,14 @@ void redirect(int descriptor, const std::filesystem::path& file) {
     ::close(opened);
 }
 
+void set_variable(const char* name, const std::string& value) {
+    if (value.empty()) {
+        ::unsetenv(name);
+    } else {
+        ::setenv(name, value.c_str(), 1);
+    }
+}
+
 /// In the child: becomes the program.
 [[noreturn]] void become(const std::vector<std::string>& arguments, const Surroundings& surroundings,
                          const std::filesystem::path& output, const std::filesystem::path& error) {
@@ -40,6 +49,8 @@ void redirect(int descriptor, const std::filesystem::path& file) {
     }
     if (surroundings.output_closed) ::close(STDOUT_FILENO);
     if (!surroundings.folder.empty() && ::chdir(surroundings.folder.c_str()) != 0) ::_exit(126);
+    set_variable("COLUMNS", surroundings.columns);
+    set_variable("ORRERY_COMMAND", surroundings.typed);
     limit(RLIMIT_FSIZE, surroundings.largest_file);
     limit(RLIMIT_AS, surroundings.address_space);
 

@@ -26,6 +26,8 @@ struct Surroundings {
     std::optional<rlim_t> largest_file = {};   ///< bytes any file may have: a disk that is full there
     std::optional<rlim_t> address_space = {};  ///< bytes of memory
     int terminal = -1;                         ///< standard error is this descriptor; -1: Outcome::error
+    std::string columns = {};                  ///< the environment's COLUMNS; empty: none
+    std::string typed = {};                    ///< the environment's ORRERY_COMMAND; empty: none
 };
 
 /// `orrery` with these arguments, running. Killed with its owner: no test leaves a process behind.

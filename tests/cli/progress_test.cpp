@@ -45,6 +45,9 @@ TEST(Progress, DurationsAreReadable) {
     EXPECT_EQ(duration_text(59.2), "1:00");
     EXPECT_EQ(duration_text(83), "1:23");
     EXPECT_EQ(duration_text(14706), "4:05:06");
+    EXPECT_EQ(duration_text(172799), "47:59:59");
+    EXPECT_EQ(duration_text(172800), "2 days");
+    EXPECT_EQ(duration_text(674 * 3600), "28 days");
     EXPECT_NE(duration_text(1e300), "");
 }
 

@@ -11,11 +11,12 @@
 
 namespace orrery::test {
 
-PseudoTerminal::PseudoTerminal() : ours_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+PseudoTerminal::PseudoTerminal(unsigned short columns) : ours_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
     if (ours_ < 0 || ::grantpt(ours_) != 0 || ::unlockpt(ours_) != 0) throw std::runtime_error("no pseudo terminal");
-    program_ = ::open(::ptsname(ours_), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    name_ = ::ptsname(ours_);
+    program_ = ::open(name_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
     if (program_ < 0) throw std::runtime_error("cannot open the pseudo terminal");
-    const winsize size = {.ws_row = 24, .ws_col = 70, .ws_xpixel = 0, .ws_ypixel = 0};
+    const winsize size = {.ws_row = 24, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
     ::ioctl(ours_, TIOCSWINSZ, &size);
 }
 

@@ -7,13 +7,15 @@ namespace orrery::test {
 
 class PseudoTerminal {
 public:
-    PseudoTerminal();
+    explicit PseudoTerminal(unsigned short columns = 70);
     ~PseudoTerminal();
     PseudoTerminal(const PseudoTerminal&) = delete;
     PseudoTerminal& operator=(const PseudoTerminal&) = delete;
 
     /// For the program: its side.
     int program_side() const { return program_; }
+    /// The file by which that side is opened.
+    const std::string& name() const { return name_; }
 
     /// Waits until `text` was shown; false when that takes longer than a slow machine explains.
     bool shows(const std::string& text);
@@ -26,6 +28,7 @@ private:
 
     int ours_ = -1;
     int program_ = -1;
+    std::string name_;
     std::string shown_;
 };
 

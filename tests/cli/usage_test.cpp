@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "program.hpp"
+#include "pseudo_terminal.hpp"
 #include "world.hpp"
 
 namespace orrery::test {
@@ -12,6 +14,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 using Arguments = std::vector<std::string>;
 
@@ -65,9 +68,62 @@ TEST(Usage, RenderHelpNamesEveryOptionItsDefaultAndAnExample) {
     EXPECT_THAT(help, HasSubstr("orrery render scenes/"));
 }
 
-TEST(Usage, HelpFitsATerminal) {
-    std::istringstream lines(orrery({"render", "--help"}).output);
-    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+const std::vector<Arguments> helps = {
+    {"--help"}, {"render", "--help"}, {"info", "--help"}, {"generate", "--help"}, {"compare", "--help"}};
+
+std::vector<std::string> words_of(const std::string& text) {
+    std::istringstream split(text);
+    std::vector<std::string> words;
+    for (std::string word; split >> word;)
+        if (word != "\\") words.push_back(word);  // behind a command that goes on
+    return words;
+}
+
+TEST(Usage, HelpFitsItsTerminalAndBreaksNoWord) {
+    for (const Arguments& asked : helps) {
+        const std::vector<std::string> words = words_of(orrery(asked, {.columns = "100"}).output);
+        for (const std::size_t columns : {20u, 40u, 60u, 80u, 81u, 100u}) {
+            const std::string help = orrery(asked, {.columns = std::to_string(columns)}).output;
+            EXPECT_EQ(words_of(help), words) << columns;
+            std::istringstream lines(help);
+            for (std::string line; std::getline(lines, line);) {
+                EXPECT_TRUE(line.size() <= columns || words_of(line).size() == 1) << columns << ": " << line;
+                EXPECT_TRUE(line.empty() || line.back() != ' ') << line;
+            }
+        }
+    }
+}
+
+TEST(Usage, HelpIsEightyColumnsWideWhereNobodyKnowsAndAHundredAtMost) {
+    const std::string help = orrery({"render", "--help"}).output;
+    for (const char* columns : {"80", "0", "-3", "wide", "80x"})
+        EXPECT_EQ(orrery({"render", "--help"}, {.columns = columns}).output, help) << columns;
+    EXPECT_EQ(orrery({"render", "--help"}, {.columns = "100"}).output,
+              orrery({"render", "--help"}, {.columns = "4000"}).output);
+    EXPECT_NE(orrery({"render", "--help"}, {.columns = "100"}).output, help);
+}
+
+TEST(Usage, HelpIsAsWideAsTheTerminal) {
+    PseudoTerminal terminal(50);
+    Program program({"render", "--help"}, {.output = terminal.name()});
+    EXPECT_TRUE(terminal.shows("scene.\r\n"));
+    program.wait();
+    std::string shown = terminal.shown();
+    std::erase(shown, '\r');
+    EXPECT_EQ(shown, orrery({"render", "--help"}, {.columns = "50"}).output);
+}
+
+TEST(Usage, HintsNameTheCommandThatWasTyped) {
+    EXPECT_THAT(orrery({"render"}, {.typed = "./run"}).error, HasSubstr("Try: ./run render --help\n"));
+    EXPECT_THAT(orrery({"render"}).error, HasSubstr("Try: orrery render --help\n"));
+    EXPECT_THAT(orrery({}, {.typed = "../here/run"}).error, HasSubstr("Try: ../here/run --help\n"));
+    for (const Arguments& asked : helps) {
+        const std::string help = orrery(asked, {.typed = "./run"}).output;
+        EXPECT_THAT(help, HasSubstr("Usage: ./run"));
+        EXPECT_THAT(help, HasSubstr("  ./run "));
+        EXPECT_THAT(help, Not(HasSubstr("orrery")));
+    }
+    EXPECT_THAT(orrery({}, {.typed = "\x1B[31mrun"}).error, Not(HasSubstr("\x1B")));
 }
 
 /// Runs the command line where nothing may appear, and checks that it is refused. Returns the reason.
@@ -101,6 +157,20 @@ TEST(Usage, OptionsAreKnownAndHaveOneValue) {
     EXPECT_THAT(refusal_with({"--spp"}), HasSubstr("--spp"));
     EXPECT_THAT(refusal_with({"--spp", "4", "--spp", "5"}), HasSubstr("--spp"));
     EXPECT_THAT(refusal_of({"info", any_scene, "-o", "x.ppm"}), HasSubstr("-o"));
+}
+
+TEST(Usage, MisspeltWordsAreNamedWithTheNearestKnown) {
+    EXPECT_THAT(refusal_of({"rendr", any_scene}), HasSubstr("found \"rendr\", expected a command"));
+    EXPECT_THAT(refusal_of({"rendr", any_scene}), HasSubstr("did you mean render?"));
+    EXPECT_THAT(refusal_of({"Generate"}), HasSubstr("did you mean generate?"));
+    EXPECT_THAT(refusal_of({"paint"}), Not(HasSubstr("did you mean")));
+    EXPECT_THAT(refusal_with({"--sp", "3"}), AllOf(HasSubstr("found \"--sp\""), HasSubstr("did you mean --spp?")));
+    EXPECT_THAT(refusal_of({"render", "--sp", "3"}), HasSubstr("did you mean --spp?"));
+    EXPECT_THAT(refusal_of({"render", "--ouput=x.ppm", any_scene}), HasSubstr("did you mean --output?"));
+    EXPECT_THAT(refusal_with({"--light-choise", "all"}), HasSubstr("did you mean --light-choice?"));
+    EXPECT_THAT(refusal_of({"compare", "a", "b", "--max-rms", "1"}), HasSubstr("did you mean --max-rmse?"));
+    EXPECT_THAT(refusal_with({"--bogus"}), Not(HasSubstr("did you mean")));
+    EXPECT_THAT(refusal_with({"--\x1B[31m"}), Not(HasSubstr("\x1B")));
 }
 
 TEST(Usage, NumbersAreWholeAndInRange) {
