@@ -10,7 +10,6 @@
 #include <thread>
 
 #include "bench/tradeoff/output.hpp"
-#include "scene/read.hpp"
 
 namespace fs = std::filesystem;
 using namespace orrery;
@@ -42,14 +41,7 @@ private:
 };
 
 Subject read_subject(const std::string& name, const Arguments& arguments, double processor_seconds) {
-    const fs::path file = arguments.scenes / (name + ".json");
-    ReadResult read = read_scene(file);
-    if (!read.scene) {
-        std::string faults;
-        for (const Diagnostic& fault : read.diagnostics) faults += format_diagnostic(file.string(), fault) + "\n";
-        throw std::runtime_error(faults);
-    }
-    Subject subject{fs::path(name).filename().string(), std::move(*read.scene), {}, {}};
+    Subject subject{fs::path(name).filename().string(), scene_of(arguments.scenes / (name + ".json")), {}, {}};
     subject.usual = usual_settings(subject.scene.settings, arguments.pixels);
     subject.reference = cached_reference(subject.scene, subject.usual, processor_seconds, arguments.cache);
     fmt::print(stderr, "{}: reference of {:.0f} samples, {:.1f} s{}, its own error {:.2g} %\n", subject.name,

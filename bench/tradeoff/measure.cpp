@@ -4,8 +4,10 @@
 #include <cmath>
 #include <ctime>
 #include <map>
+#include <stdexcept>
 
 #include "film/error.hpp"
+#include "scene/read.hpp"
 #include "wavefront/render.hpp"
 
 namespace orrery::tradeoff {
@@ -38,6 +40,14 @@ void add_differences(const Image& image, const Image& truth, Level& level) {
 }
 
 }  // namespace
+
+Scene scene_of(const std::filesystem::path& file) {
+    ReadResult read = read_scene(file);
+    if (read.scene) return std::move(*read.scene);
+    std::string faults;
+    for (const Diagnostic& fault : read.diagnostics) faults += format_diagnostic(file.string(), fault) + "\n";
+    throw std::runtime_error(faults);
+}
 
 Shot take(const Scene& scene, const Setup& setup, std::uint32_t strata, std::uint32_t seed) {
     Scene copy = scene;

@@ -10,6 +10,9 @@
 
 namespace orrery::tradeoff {
 
+/// Reads a scene. Throws std::runtime_error with all its faults.
+Scene scene_of(const std::filesystem::path& file);
+
 /// One render.
 struct Shot {
     Image image;

@@ -37,6 +37,9 @@ const CellSummary& best_of(const Outcome& outcome, std::size_t subject);
 /// Markdown by the name of the block of TRADEOFF.md it belongs to.
 std::map<std::string, std::string> blocks_of(const Outcome& outcome);
 
+/// The processor, its threads and the instruction set that the program takes, as a sentence.
+std::string machine_text();
+
 /// What a user should choose, in sentences. Part of blocks_of.
 std::string advice(const Outcome& outcome);
 

@@ -27,11 +27,10 @@ constexpr const char* few_rounds =
 
 std::string setting(const Outcome& outcome) {
     return fmt::format(
-               "{}, {}, {}. {} rounds in {:.0f} s: {} combinations of scene and settings, each rendered at up "
+               "{} {} rounds in {:.0f} s: {} combinations of scene and settings, each rendered at up "
                "to four "
                "numbers of samples, the largest of about {:.0f} ms of processor time; images of {} pixels or about.\n",
-               processor(), counted(std::thread::hardware_concurrency(), "thread"), isa_name(best_isa()),
-               outcome.rounds, outcome.seconds, outcome.cells.size(), 1e3 * outcome.last_level_seconds,
+               machine_text(), outcome.rounds, outcome.seconds, outcome.cells.size(), 1e3 * outcome.last_level_seconds,
                outcome.subjects.front().usual.width * outcome.subjects.front().usual.height) +
            (outcome.rounds < 8 ? few_rounds : "");
 }
@@ -105,6 +104,11 @@ std::string references(const Outcome& outcome) {
 }
 
 }  // namespace
+
+std::string machine_text() {
+    return fmt::format("{}, {}, {}.", processor(), counted(std::thread::hardware_concurrency(), "thread"),
+                       isa_name(best_isa()));
+}
 
 std::map<std::string, std::string> blocks_of(const Outcome& outcome) {
     return {{"setting", setting(outcome)}, {"advice", advice(outcome)}, {"best", best(outcome)},

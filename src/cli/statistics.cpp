@@ -37,10 +37,11 @@ Json profile(const RenderStats& stats) {
     return rows;
 }
 
-/// null where nothing tells, as with one sample per pixel.
+/// null where nothing tells, as with one sample per pixel; where an error is known to be "at least", its upper end.
 Json error_json(const RootMeanSquare& error) {
     if (!std::isfinite(error.value)) return nullptr;
-    return {{"estimate", error.value}, {"interval_95", {error.low, error.high}}};
+    const Json high = std::isfinite(error.high) ? Json(error.high) : Json(nullptr);
+    return {{"estimate", error.value}, {"interval_95", {error.low, high}}};
 }
 
 /// null where the scene or --spp gave the number of samples.

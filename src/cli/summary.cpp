@@ -23,6 +23,8 @@ std::string samples_text(const RenderStats& stats) {
 /// Nothing where nothing is known, as with one sample per pixel.
 std::string error_text(const RootMeanSquare& error) {
     if (!std::isfinite(error.value)) return "";
+    if (!std::isfinite(error.high))
+        return fmt::format(", error {:.2g} % (at least {:.2g}: few samples tell)", 100 * error.value, 100 * error.low);
     return fmt::format(", error {:.3g} % ({:.3g} to {:.3g})", 100 * error.value, 100 * error.low, 100 * error.high);
 }
 

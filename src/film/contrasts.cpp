@@ -1,49 +1,59 @@
 #include "film/contrasts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace orrery {
-namespace {
-
-/// Contrasts as they are summed, one after the other: a sum does not depend on how a pixel's samples were cut into
-/// portions. Four lanes, of which the last stands for the unused number beside r, g and b.
-struct Sums {
-    double lane[4];
-    std::uint64_t contrasts;
-};
-
-/// A contrast, channel by channel, squared or as part of one: plus the samples of the first half, minus those of the
-/// second. In the samples' own type: its rounding is theirs, and equal ones still leave exactly zero. With `checked`,
-/// one with a sample that the film does not keep is left out.
-template <Contrasting contrasting, bool checked, class Real, std::size_t count>
-inline void add_contrast(Sums& sum, const Real* const (&samples)[count]) {
+/// A contrast, channel by channel: plus the samples of the first half, minus those of the second. In the samples' own
+/// type: its rounding is theirs, and equal ones still leave exactly zero. With `checked`, one with a sample that the
+/// film does not keep is left out.
+template <class Real>
+template <Contrasting contrasting, bool checked, std::size_t count>
+[[gnu::always_inline]] inline void Contrasts<Real>::add_contrast(Sums& sum, const Real* const (&samples)[count]) {
     if (checked)
         for (const Real* const sample : samples)
             if (!Film::keeps(sample[0], sample[1], sample[2])) return;
+    Real d[4], square[4], total[4];
     for (std::uint32_t c = 0; c < 4; ++c) {
-        double d = 0;
         if constexpr (count == 2) {
-            d = samples[0][c] - samples[1][c];
+            d[c] = samples[0][c] - samples[1][c];
+            total[c] = samples[0][c] + samples[1][c];
         } else {
-            d = (samples[0][c] - samples[2][c]) - (samples[3][c] - samples[1][c]);
+            d[c] = (samples[0][c] - samples[2][c]) - (samples[3][c] - samples[1][c]);
+            total[c] = (samples[0][c] + samples[2][c]) + (samples[3][c] + samples[1][c]);
         }
-        sum.lane[c] += contrasting == Contrasting::one ? d : d * d;
+        square[c] = d[c] * d[c];
     }
+    if (!sum.stepping) {
+        std::copy(square, square + 4, sum.last_square);
+        std::copy(total, total + 4, sum.last_total);
+    }
+    sum.steps += sum.stepping ? 1 : 0;
+    sum.stepping = true;
     ++sum.contrasts;
+    for (std::uint32_t c = 0; c < 4; ++c) {
+        sum.squares[c] += double{d[c]} * double{d[c]};
+        if constexpr (contrasting == Contrasting::one) sum.difference[c] += double{d[c]};
+        sum.skews[c] += (square[c] - sum.last_square[c]) * (total[c] - sum.last_total[c]);
+        sum.last_square[c] = square[c];
+        sum.last_total[c] = total[c];
+    }
 }
 
 /// a - b of two visits to a row, cell by cell.
-template <Contrasting contrasting, bool checked, class Real>
-inline void add_differences(Sums& sum, const Real* row, const Real* again, std::uint32_t columns) {
+template <class Real>
+template <Contrasting contrasting, bool checked>
+[[gnu::always_inline]] inline void Contrasts<Real>::add_differences(Sums& sum, const Real* row, const Real* again,
+                                                                    std::uint32_t columns) {
     for (std::uint32_t i = 0; i < 4 * columns; i += 4) add_contrast<contrasting, checked>(sum, {row + i, again + i});
 }
 
 /// a - b - c + d of blocks side by side; in rows of odd length the last overlaps the one before.
-template <bool checked, class Real>
-inline void add_blocks(Sums& sum, const Real* row, const Real* next, std::uint32_t columns) {
-    const auto add = [&](std::uint32_t x) {
+template <class Real>
+template <bool checked>
+[[gnu::always_inline]] inline void Contrasts<Real>::add_blocks(Sums& sum, const Real* row, const Real* next,
+                                                               std::uint32_t columns) {
+    const auto add = [&](std::uint32_t x) __attribute__((always_inline)) {
         const Real* const upper = row + 4 * x;
         const Real* const lower = next + 4 * x;
         add_contrast<Contrasting::many, checked>(sum, {upper, lower + 4, upper + 4, lower});
@@ -52,25 +62,25 @@ inline void add_blocks(Sums& sum, const Real* row, const Real* next, std::uint32
     if (columns % 2 == 1) add(columns - 2);
 }
 
-/// A run of groups: pairs of visits, or two or three rows of cells.
-template <bool checked, class Real>
-void add_run(Sums& sum, Contrasting contrasting, const Real* rgbx, std::uint32_t rows, std::uint32_t columns,
-             bool twice) {
-    const std::size_t stride = std::size_t{4} * columns;
-    if (twice && contrasting == Contrasting::one) {
+/// With a run of groups more: pairs of visits, or two or three rows of cells.
+template <class Real>
+template <bool checked>
+typename Contrasts<Real>::Sums Contrasts<Real>::sum_of_run(Sums sum, Contrasting contrasting, const Real* rgbx,
+                                                           std::uint32_t rows) const {
+    const std::size_t stride = std::size_t{4} * columns_;
+    if (twice_ && contrasting == Contrasting::one) {
         for (std::uint32_t row = 0; row < rows; row += 2, rgbx += 2 * stride)
-            add_differences<Contrasting::one, checked>(sum, rgbx, rgbx + stride, columns);
-    } else if (twice) {
+            add_differences<Contrasting::one, checked>(sum, rgbx, rgbx + stride, columns_);
+    } else if (twice_) {
         for (std::uint32_t row = 0; row < rows; row += 2, rgbx += 2 * stride)
-            add_differences<Contrasting::many, checked>(sum, rgbx, rgbx + stride, columns);
+            add_differences<Contrasting::many, checked>(sum, rgbx, rgbx + stride, columns_);
     } else {
         for (std::uint32_t row = 0; row + 1 < rows; row += 2, rgbx += 2 * stride)
-            add_blocks<checked>(sum, rgbx, rgbx + stride, columns);
-        if (rows % 2 == 1) add_blocks<checked>(sum, rgbx - stride, rgbx, columns);
+            add_blocks<checked>(sum, rgbx, rgbx + stride, columns_);
+        if (rows % 2 == 1) add_blocks<checked>(sum, rgbx - stride, rgbx, columns_);
     }
+    return sum;
 }
-
-}  // namespace
 
 template <class Real>
 void Contrasts<Real>::begin(std::uint32_t columns, bool twice) {
@@ -86,10 +96,10 @@ void Contrasts<Real>::add(Film& film, std::size_t pixel, const Real* rgbx, std::
     if (columns_ == 1 && !twice_) return;
     if (pixel != pixel_) {
         pixel_ = pixel;
+        load(film, pixel);
         rows_done_ = 0;
         begun_.clear();
     }
-    Spread spread = film.spread(pixel);
     while (count > 0) {
         const std::uint32_t group = group_size();
         const auto begun = static_cast<std::uint32_t>(begun_.size() / 4);
@@ -97,18 +107,18 @@ void Contrasts<Real>::add(Film& film, std::size_t pixel, const Real* rgbx, std::
         if (taken == group) {
             // All pairs of visits at once; of rows visited once the last group is another.
             if (twice_) taken = count - count % group;
-            add_rows(spread, film.contrasting(), rgbx, taken / columns_);
+            add_rows(film.contrasting(), rgbx, taken / columns_);
         } else {
             begun_.insert(begun_.end(), rgbx, rgbx + std::size_t{4} * taken);
             if (begun + taken == group) {
-                add_rows(spread, film.contrasting(), begun_.data(), group / columns_);
+                add_rows(film.contrasting(), begun_.data(), group / columns_);
                 begun_.clear();
             }
         }
         rgbx += std::size_t{4} * taken;
         count -= taken;
     }
-    film.set_spread(pixel, spread);
+    store(film, pixel);
 }
 
 /// Two rows; where an odd number of rows is visited once, the last three, so that none is left over.
@@ -119,19 +129,43 @@ std::uint32_t Contrasts<Real>::group_size() const {
 }
 
 template <class Real>
-void Contrasts<Real>::add_rows(Spread& spread, Contrasting contrasting, const Real* rgbx, std::uint32_t rows) {
-    const Sums before{{spread.sums.r, spread.sums.g, spread.sums.b, 0}, spread.contrasts};
-    Sums sum = before;
-    add_run<false>(sum, contrasting, rgbx, rows, columns_, twice_);
+void Contrasts<Real>::load(Film& film, std::size_t pixel) {
+    const auto lanes = [](auto(&lane)[4], const auto& sum) {
+        lane[0] = sum.r;
+        lane[1] = sum.g;
+        lane[2] = sum.b;
+        lane[3] = 0;
+    };
+    const Spread& spread = film.spread(pixel);
+    lanes(sums_.squares, spread.squares);
+    lanes(sums_.skews, spread.skews);
+    if (film.contrasting() == Contrasting::one) lanes(sums_.difference, film.difference(pixel));
+    sums_.contrasts = spread.contrasts;
+    sums_.steps = spread.steps;
+    sums_.stepping = false;
+}
+
+template <class Real>
+void Contrasts<Real>::store(Film& film, std::size_t pixel) const {
+    Spread spread = film.spread(pixel);
+    const auto& [squares, difference, skews, last_square, last_total, contrasts, steps, stepping] = sums_;
+    spread.members += (contrasts - spread.contrasts) * (twice_ ? 2 : 4);
+    spread.squares = {squares[0], squares[1], squares[2]};
+    spread.skews = {static_cast<float>(skews[0]), static_cast<float>(skews[1]), static_cast<float>(skews[2])};
+    spread.contrasts = contrasts;
+    spread.steps = steps;
+    film.set_spread(pixel, spread);
+    if (film.contrasting() == Contrasting::one) film.difference(pixel) = {difference[0], difference[1], difference[2]};
+}
+
+template <class Real>
+void Contrasts<Real>::add_rows(Contrasting contrasting, const Real* rgbx, std::uint32_t rows) {
+    Sums sum = sum_of_run<false>(sums_, contrasting, rgbx, rows);
     // A sample that the film does not keep makes this no number, or in double at least very large.
-    constexpr double most = sizeof(Real) == 4 ? std::numeric_limits<double>::max() : 0x1p120;
-    if (!(std::abs(sum.lane[0]) + std::abs(sum.lane[1]) + std::abs(sum.lane[2]) <= most)) {
-        sum = before;
-        add_run<true>(sum, contrasting, rgbx, rows, columns_, twice_);
-    }
-    spread.sums = {sum.lane[0], sum.lane[1], sum.lane[2]};
-    spread.members += (sum.contrasts - spread.contrasts) * (twice_ ? 2 : 4);
-    spread.contrasts = sum.contrasts;
+    constexpr double most = sizeof(Real) == 4 ? std::numeric_limits<double>::max() : 0x1p240;
+    if (!(sum.squares[0] + sum.squares[1] + sum.squares[2] <= most))
+        sum = sum_of_run<true>(sums_, contrasting, rgbx, rows);
+    sums_ = sum;
     rows_done_ += rows;
 }
 

@@ -22,6 +22,11 @@
 // Two sequences scrambled apart, sample by sample in turns, the Sobol' estimator: only their two sums are independent,
 // so that all samples of a pixel form a single contrast. With as many samples of both it has no bias, and one degree of
 // freedom: of a pixel it tells little, and may be 0 by chance, of an image as much as its pixels are many.
+//
+// How skewed samples are. A contrast of two samples, squared, and their sum: the covariance of both is the third
+// cumulant of the sum, (a - b)^2 against a + b; so it is with four. Where cells differ, square and sum would covary
+// from cell to cell without any chance being in it, so that only steps from one contrast to the next count: cells that
+// lie side by side have about the same mean.
 #pragma once
 
 #include <cstdint>
@@ -38,6 +43,7 @@ public:
     /// Samples come row by row of a grid of `columns` x `columns` cells, one in each cell of a row; with `twice` every
     /// row comes a second time before the next. One column visited once has no contrasts. To a film of one contrast
     /// per pixel samples come as one column, `twice`: of the two sequences in turns.
+    /// What the film's pixels had before stays.
     void begin(std::uint32_t columns, bool twice);
 
     /// Adds the next samples of a pixel to the film's spread: r, g, b and one unused number each. A pixel's samples may
@@ -45,13 +51,34 @@ public:
     void add(Film& film, std::size_t pixel, const Real* rgbx, std::uint32_t count);
 
 private:
+    /// One after the other, so that sums do not depend on how a pixel's samples were cut into portions. Four lanes, of
+    /// which the last stands for the unused number beside r, g and b.
+    struct Sums {
+        double squares[4], difference[4];
+        Real skews[4];
+        Real last_square[4], last_total[4];  ///< of the contrast before
+        std::uint32_t contrasts, steps;
+        bool stepping;  ///< whether there was one
+    };
+
     std::uint32_t group_size() const;
-    void add_rows(Spread& spread, Contrasting contrasting, const Real* rgbx, std::uint32_t rows);
+    void load(Film& film, std::size_t pixel);
+    void store(Film& film, std::size_t pixel) const;
+    void add_rows(Contrasting contrasting, const Real* rgbx, std::uint32_t rows);
+    template <Contrasting contrasting, bool checked, std::size_t count>
+    static void add_contrast(Sums& sum, const Real* const (&samples)[count]);
+    template <Contrasting contrasting, bool checked>
+    static void add_differences(Sums& sum, const Real* row, const Real* again, std::uint32_t columns);
+    template <bool checked>
+    static void add_blocks(Sums& sum, const Real* row, const Real* next, std::uint32_t columns);
+    template <bool checked>
+    Sums sum_of_run(Sums sum, Contrasting contrasting, const Real* rgbx, std::uint32_t rows) const;
 
     std::uint32_t columns_ = 1;
     bool twice_ = true;
     std::size_t pixel_ = no_pixel;
     std::uint32_t rows_done_ = 0;  ///< of the present pixel
+    Sums sums_{};                  ///< of the present pixel
     std::vector<Real> begun_;      ///< samples of a group of rows that the last portion left incomplete
     static constexpr std::size_t no_pixel = ~std::size_t{0};
 };

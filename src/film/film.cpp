@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace orrery {
 
@@ -21,19 +22,27 @@ PixelEstimate Film::estimate(std::size_t pixel) const {
     const Pixel& sum = pixels_[pixel];
     const Spread& spread = spreads_[pixel];
     constexpr double unknown = std::numeric_limits<double>::infinity();
-    if (sum.samples == 0) return {{}, {unknown, unknown, unknown}, 0};
+    PixelEstimate estimate{{}, {unknown, unknown, unknown}, {}, 0};
+    if (sum.samples == 0) return estimate;
     const auto n = static_cast<double>(sum.samples);
-    const Rgb64 mean{sum.r / n, sum.g / n, sum.b / n};
-    if (spread.members == 0) return {mean, {unknown, unknown, unknown}, 0};
-    const Rgb64& s = spread.sums;
+    estimate.mean = {sum.r / n, sum.g / n, sum.b / n};
+    if (spread.members == 0) return estimate;
     const bool one = contrasting_ == Contrasting::one;
-    const Rgb64 squares = one ? Rgb64{s.r * s.r, s.g * s.g, s.b * s.b} : s;
-    // The members' sum has the variance `squares`; the sum of all samples has as much more as they are more, and the
-    // mean n^2 times less.
+    estimate.degrees = one ? 1 : spread.contrasts;
+    // The members' sum has the variance of the squares; the sum of all samples has as much more as they are more, and
+    // the mean n^2 times less.
     const double scale = 1 / (static_cast<double>(spread.members) * n);
-    return {mean,
-            {squares.r * scale, squares.g * scale, squares.b * scale},
-            one ? 1 : static_cast<double>(spread.contrasts)};
+    // The product of two steps is, on average, twice the covariance of square and sum, a contrast's part of the third
+    // cumulant.
+    const double skew_scale = spread.steps == 0 ? 0 : spread.contrasts / (2.0 * spread.steps) / n;
+    for (const auto& [channel, colour] : {std::pair{&Rgb64::r, &Rgb::r}, {&Rgb64::g, &Rgb::g}, {&Rgb64::b, &Rgb::b}}) {
+        const double squares = spread.squares.*channel;
+        const double difference = one ? differences_[pixel].*channel : 0;
+        estimate.variance.*channel = (one ? difference * difference : squares) * scale;
+        const double skews = spread.skews.*colour;
+        if (squares > 0) estimate.skew.*channel = std::isfinite(skews) ? skews / squares * skew_scale : unknown;
+    }
+    return estimate;
 }
 
 }  // namespace orrery

@@ -31,21 +31,26 @@ struct Rgb64 {
     double r = 0, g = 0, b = 0;
 };
 
-/// What a film keeps of the contrasts of a pixel's samples: many are squared one by one and summed; one that all
-/// samples form together grows with each, and is squared in the end.
+/// Which contrasts of a pixel's samples tell the variance of their sum: many, each squared, or a single one that all
+/// samples form together, squared in the end.
 enum class Contrasting : std::uint8_t { many, one };
 
 /// What the samples of a pixel tell about the error of their sum (contrasts.hpp says how).
 struct Spread {
-    Rgb64 sums;                 ///< of squared contrasts, or the one contrast itself
-    std::uint64_t members = 0;  ///< samples in those contrasts: the variance of their sum is that of the contrasts
-    std::uint64_t contrasts = 0;
+    Rgb64 squares;  ///< sum of squared contrasts
+    /// Sum over steps from one contrast to the next: step of the square, times step of the sum of its samples. Not
+    /// finite where floats do not hold it.
+    Rgb skews;
+    std::uint32_t members = 0;  ///< samples in those contrasts: the variance of their sum is that of the contrasts
+    std::uint32_t contrasts = 0;
+    std::uint32_t steps = 0;
 };
 
 /// A pixel's mean, how far it may be from the truth, and from how much that is known.
 struct PixelEstimate {
     Rgb64 mean;
     Rgb64 variance;      ///< of `mean`; infinite where nothing tells, as with a single sample
+    Rgb64 skew;          ///< third cumulant of `mean` over its variance: what a typical bright sample adds to it
     double degrees = 0;  ///< of freedom of `variance`
 };
 
@@ -58,7 +63,8 @@ public:
           height_(height),
           contrasting_(contrasting),
           pixels_(std::size_t{width} * height),
-          spreads_(std::size_t{width} * height) {}
+          spreads_(std::size_t{width} * height),
+          differences_(contrasting == Contrasting::one ? pixels_.size() : 0) {}
 
     std::uint32_t width() const { return width_; }
     std::uint32_t height() const { return height_; }
@@ -101,13 +107,16 @@ public:
     const Spread& spread(std::size_t pixel) const { return spreads_[pixel]; }
     void set_spread(std::size_t pixel, const Spread& spread) { spreads_[pixel] = spread; }
 
+    /// The one contrast that all samples of a pixel form; only for Contrasting::one.
+    Rgb64& difference(std::size_t pixel) { return differences_[pixel]; }
+
     /// How many samples got into a pixel.
     std::uint64_t samples(std::size_t pixel) const { return pixels_[pixel].samples; }
 
     /// Mean of the samples that got in; black where there is none.
     Image mean() const;
 
-    /// A pixel's mean and variance; black where there is no sample.
+    /// What is known of a pixel; its mean is black where there is no sample.
     PixelEstimate estimate(std::size_t pixel) const;
 
 private:
@@ -129,7 +138,8 @@ private:
     std::uint32_t width_, height_;
     Contrasting contrasting_;
     std::vector<Pixel> pixels_;
-    std::vector<Spread> spreads_;  ///< apart: what a render sums most often stays dense
+    std::vector<Spread> spreads_;     ///< apart: what a render sums most often stays dense
+    std::vector<Rgb64> differences_;  ///< empty for Contrasting::many
 };
 
 }  // namespace orrery

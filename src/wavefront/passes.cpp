@@ -10,9 +10,11 @@ namespace {
 /// Regions follow the error, so they are small; with a few dozen samples a pixel, half of one fills a wave.
 constexpr std::uint32_t region_side = 16;
 
-// A few black samples must not look like an image without error.
-constexpr std::uint32_t fewest_passes = 3;
-constexpr std::uint32_t fewest_samples = 32;
+/// A few black samples must not look like an image without error: so many are enough where the pixels that carry the
+/// error are known well, else more.
+constexpr std::uint32_t fewest_samples = 8, fewest_in_doubt = 32;
+/// Share of the error that may be in doubt (SquaredError::doubt) where fewest_samples are enough.
+constexpr double little_doubt = 0.5;
 /// Samples of an image without any noise until that is believed.
 constexpr double noiseless_samples = 1 << 22;
 
@@ -63,12 +65,16 @@ std::size_t Passes::other_half(std::size_t region) const {
     return region;  // a tile of one pixel
 }
 
-bool Passes::enough_known() const { return count_ >= fewest_passes && least_samples() >= fewest_samples; }
+bool Passes::enough_known() const {
+    const bool certain = error_.relative.value > 0 && doubt_ < little_doubt;
+    return least_samples() >= (certain ? fewest_samples : fewest_in_doubt);
+}
 
 void Passes::learn(const std::vector<ErrorSums>& errors) {
     ErrorSums sums;
     for (const ErrorSums& error : errors) sums.add(error);
     error_ = sums.error();
+    doubt_ = sums.relative.doubt();
 
     if (in_pilot_) learn_scatter(errors);
     left_ = 0;

@@ -81,7 +81,8 @@ private:
     double added_ = 0;    ///< samples of the last pass
     double started_ = 0;  ///< seconds, the last pass
     ImageError error_;
-    double left_ = 0;  ///< of the regions' scatter at that error, as allocate() counts it
+    double doubt_ = 0;  ///< share of it
+    double left_ = 0;   ///< of the regions' scatter at that error, as allocate() counts it
     std::uint32_t count_ = 0;
     bool in_pilot_ = true;
     StopReason reason_ = StopReason::samples;

@@ -43,8 +43,9 @@ void render_in_passes(const Plan& plan, const RenderOptions& options, const Film
         workers.run(tasks, progress);
         const Image image = develop(film, integrator);
         workers.execute([&] {
+            const Image of_pixels = develop_error(film, integrator);
             tbb::parallel_for(std::size_t{0}, errors.size(), [&](std::size_t i) {
-                errors[i] = error_of_tile(film, integrator, image, passes.regions()[i]);
+                errors[i] = error_of_tile(film, integrator, image, of_pixels, passes.regions()[i]);
             });
         });
         passes.learn(errors);
@@ -76,8 +77,11 @@ RenderResult render_in(const Plan& plan, const RenderOptions& options) {
 
     const Integrator integrator = plan.settings().integrator;
     result.image = develop(film, integrator);
-    if (options.standard_error) result.standard_error = develop_error(film, integrator);
-    if (!options.goal.asked()) workers.execute([&] { stats.error = estimate_error(film, integrator, result.image); });
+    workers.execute([&] {
+        Image errors = develop_error(film, integrator);
+        if (!options.goal.asked()) stats.error = estimate_error(film, integrator, result.image, errors);
+        if (options.standard_error) result.standard_error = std::move(errors);
+    });
     return result;
 }
 

@@ -10,28 +10,36 @@
 namespace orrery {
 namespace {
 
-/// A cell's sample is low or high with equal chance.
+/// A cell's sample is high with a chance, else low.
 struct Cell {
     float low, high;
-    double variance() const { return (double{high} - low) * (double{high} - low) / 4; }
+    double chance = 0.5;
+    double variance() const { return std::pow(double{high} - low, 2) * chance * (1 - chance); }
+    double third_cumulant() const { return std::pow(double{high} - low, 3) * chance * (1 - chance) * (1 - 2 * chance); }
 };
 
 /// Mean and variance of the sum over all outcomes, and the mean of what one pixel's contrasts say of that variance.
 struct Expectation {
-    double variance = 0;
-    double estimated = 0;
+    double variance = 0, third_cumulant = 0;
+    double estimated = 0, estimated_third_cumulant = 0;
 };
 
 Expectation over_all_outcomes(const std::vector<Cell>& samples, std::uint32_t columns, bool twice,
                               Contrasting contrasting = Contrasting::many) {
     Expectation result;
-    for (const Cell& cell : samples) result.variance += cell.variance();
+    for (const Cell& cell : samples) {
+        result.variance += cell.variance();
+        result.third_cumulant += cell.third_cumulant();
+    }
     const std::size_t outcomes = std::size_t{1} << samples.size();
     std::vector<float> rgbx(4 * samples.size());
     for (std::size_t outcome = 0; outcome < outcomes; ++outcome) {
         Film film(1, 1, contrasting);
+        double chance = 1;
         for (std::size_t s = 0; s < samples.size(); ++s) {
-            const float value = (outcome >> s & 1) != 0 ? samples[s].high : samples[s].low;
+            const bool high = (outcome >> s & 1) != 0;
+            chance *= high ? samples[s].chance : 1 - samples[s].chance;
+            const float value = high ? samples[s].high : samples[s].low;
             rgbx[4 * s] = value;
             rgbx[4 * s + 1] = 2 * value;
             rgbx[4 * s + 2] = -value;
@@ -46,7 +54,11 @@ Expectation over_all_outcomes(const std::vector<Cell>& samples, std::uint32_t co
         const double of_sum = static_cast<double>(count) * count;
         EXPECT_DOUBLE_EQ(pixel.variance.g, 4 * pixel.variance.r);
         EXPECT_DOUBLE_EQ(pixel.variance.b, pixel.variance.r);
-        result.estimated += pixel.variance.r * of_sum / static_cast<double>(outcomes);
+        result.estimated += pixel.variance.r * of_sum * chance;
+        const Spread& spread = film.spread(0);
+        if (spread.steps > 0)
+            result.estimated_third_cumulant +=
+                double{spread.skews.r} * spread.contrasts / (2.0 * spread.steps) * chance;
     }
     return result;
 }
@@ -63,6 +75,25 @@ TEST(Contrasts, OfUniformSamplesAreExact) {
         const Expectation e = over_all_outcomes(std::vector<Cell>(count, Cell{1, 4}), 1, true);
         EXPECT_NEAR(e.estimated, e.variance, 1e-12 * e.variance) << count;
     }
+}
+
+TEST(Contrasts, TellHowSkewedSamplesAre) {
+    for (const std::size_t count : {4u, 6u, 8u}) {
+        const Expectation e = over_all_outcomes(std::vector<Cell>(count, Cell{1, 4, 0.1}), 1, true);
+        EXPECT_NEAR(e.estimated_third_cumulant, e.third_cumulant, 1e-6 * e.third_cumulant) << count;
+    }
+    for (const bool twice : {false, true}) {
+        const Expectation e = over_all_outcomes(std::vector<Cell>(16, Cell{0, 2, 0.2}), twice ? 2 : 4, twice);
+        EXPECT_NEAR(e.estimated_third_cumulant, e.third_cumulant, 1e-6 * e.third_cumulant) << twice;
+    }
+}
+
+// The cells of an edge have a variance and a mean between dark and bright, but no skewness.
+TEST(Contrasts, DoNotTakeAnEdgeForSkewness) {
+    const Cell dark{0, 0}, bright{8, 8}, half{0, 8};
+    const Expectation e =
+        over_all_outcomes({dark, half, bright, dark, half, bright, dark, half, bright, dark, half, bright}, 3, true);
+    EXPECT_NEAR(e.estimated_third_cumulant, 0, 0.05 * std::pow(e.variance, 1.5));
 }
 
 TEST(Contrasts, OfTwoSequencesInTurnsAreExact) {
@@ -146,6 +177,7 @@ TEST(Contrasts, AreTheSameHoweverTheSamplesArePortioned) {
                                                                {1, true, 9, Contrasting::one}}) {
         const std::vector<float> rgbx = noise(samples);
         Spread whole;
+        double variance = 0;
         for (std::uint32_t portion = samples; portion > 0; --portion) {
             Film film(2, 1, contrasting);
             Contrasts contrasts;
@@ -153,10 +185,16 @@ TEST(Contrasts, AreTheSameHoweverTheSamplesArePortioned) {
             for (const std::size_t pixel : {0u, 1u})
                 for (std::uint32_t s = 0; s < samples; s += portion)
                     contrasts.add(film, pixel, rgbx.data() + 4 * s, std::min(portion, samples - s));
-            if (portion == samples) whole = film.spread(0);
+            if (portion == samples) {
+                whole = film.spread(0);
+                variance = film.estimate(0).variance.r;
+            }
             for (const std::size_t pixel : {0u, 1u}) {
-                EXPECT_EQ(film.spread(pixel).sums.r, whole.sums.r) << columns << " columns, portions of " << portion;
-                EXPECT_EQ(film.spread(pixel).sums.b, whole.sums.b);
+                EXPECT_EQ(film.spread(pixel).squares.r, whole.squares.r) << columns << ", portions of " << portion;
+                EXPECT_EQ(film.spread(pixel).squares.b, whole.squares.b);
+                EXPECT_EQ(film.spread(pixel).skews.g, whole.skews.g);
+                EXPECT_EQ(film.spread(pixel).steps, whole.contrasts - 1);
+                EXPECT_EQ(film.estimate(pixel).variance.r, variance);
                 EXPECT_EQ(film.spread(pixel).members, whole.members);
                 EXPECT_EQ(film.spread(pixel).contrasts, whole.contrasts);
             }
@@ -191,9 +229,9 @@ TEST(Contrasts, LeaveOutWhatIsNotFinite) {
         const Spread spread = spread_of();
         EXPECT_EQ(spread.contrasts, clean.contrasts - 1);
         EXPECT_EQ(spread.members, clean.members - (twice ? 2 : 4));
-        EXPECT_LT(spread.sums.r, clean.sums.r);
-        EXPECT_GT(spread.sums.r, 0);
-        EXPECT_TRUE(std::isfinite(spread.sums.g));
+        EXPECT_LT(spread.squares.r, clean.squares.r);
+        EXPECT_GT(spread.squares.r, 0);
+        EXPECT_TRUE(std::isfinite(spread.squares.g));
     }
 }
 

@@ -59,14 +59,14 @@ struct Asked {
 class StopAtAnError : public testing::TestWithParam<bool> {};
 
 // 0.8 to 1.2 of what was asked, in most renders and for the mean over seeds. (An image of 24 x 24 knows its error to
-// a tenth or so.)
+// a tenth or so, and has to be better than asked for the interval to end where it must.)
 // Sobol's sequences double, and at an edge that divides the error by 2.4: they land below.
 TEST_P(StopAtAnError, LandsThere) {
     const Asked cases[] = {{"noise", noisy(3, side), Estimator::stratified, 0.05},
                            {"noise, uniform", noisy(3, side), Estimator::uniform, 0.05},
-                           {"edges, sobol", edges(side), Estimator::sobol, 0.02, 0.5, 0},
-                           {"noise, sobol", noisy(3, side), Estimator::sobol, 0.05, 0.8, 14},
-                           {"edges", edges(side), Estimator::stratified, 0.02}};
+                           {"edges, sobol", edges(side), Estimator::sobol, 0.02, 0.45, 0},
+                           {"noise, sobol", noisy(3, side), Estimator::sobol, 0.05, 0.72, 9},
+                           {"edges", edges(side), Estimator::stratified, 0.02, 0.85, 14}};
     for (Asked asked : cases) {
         asked.scene.settings.estimator = asked.estimator;
         const Image truth = converged(asked.scene, 8100);
@@ -228,7 +228,7 @@ TEST(Passes, WorkForAnyImage) {
         scene.settings.width = width;
         scene.settings.height = height;
         const RenderStats stats = render_to(scene, {.error = 0.2, .samples = 4000}).stats;
-        EXPECT_GE(stats.least_samples, 32u) << width << " x " << height;
+        EXPECT_GE(stats.least_samples, 8u) << width << " x " << height;
     }
 }
 
