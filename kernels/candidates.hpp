@@ -91,17 +91,18 @@ ORRERY_INLINE Bunch<typename V::Real> bound(const RaySpan<typename V::Real>& ray
     using Real = typename V::Real;
     using F = typename V::F;
     F low[6], high[6];
-    for (int c = 0; c < 6; ++c) low[c] = high[c] = load<F>(column[c]);
-    F nearest = inverse_t_max != nullptr ? load<F>(inverse_t_max) : F(0);
-    for (std::uint32_t i = V::count; i < count; i += V::count) {
+    const F infinity(std::numeric_limits<Real>::infinity());
+    for (int c = 0; c < 6; ++c) low[c] = infinity, high[c] = F(0) - infinity;
+    F nearest = inverse_t_max != nullptr ? infinity : F(0);
+    for (std::uint32_t i = 0; i < count; i += V::count) {
         // The last vector overlaps the one before rather than reach behind the last ray.
         const std::uint32_t at = i + V::count <= count ? i : count - V::count;
         for (int c = 0; c < 6; ++c) {
             const F x = load<F>(column[c] + at);
-            low[c] = min(low[c], x);
-            high[c] = max(high[c], x);
+            low[c] = min(x, low[c]);  // in this order: what is no number, and meets nothing, moves no bound
+            high[c] = max(x, high[c]);
         }
-        if (inverse_t_max != nullptr) nearest = min(nearest, load<F>(inverse_t_max + at));
+        if (inverse_t_max != nullptr) nearest = min(load<F>(inverse_t_max + at), nearest);
     }
     Real middle[6], half[6];
     for (int c = 0; c < 6; ++c) {

@@ -82,8 +82,8 @@ template <class V>
 struct Arrival {
     Vec3<typename V::F> direction;  ///< unit length, towards the light
     typename V::F inverse_distance;
-    typename V::F factor;  ///< of the light's colour, surface weight excluded
-    typename V::M arrives;
+    typename V::F factor;   ///< of the light's colour, surface weight excluded
+    typename V::M arrives;  ///< also where the factor is no number: the film counts it
 };
 
 /// Light samples from a point light.
@@ -101,7 +101,8 @@ struct PointSampler {
         const F inverse_distance = F(1) / root(distance2);
         const Vec3<F> direction = to * inverse_distance;
         const F pdf = response_pdf<V, response>(context, lobes, vertex.i, vertex.sphere, vertex.normal, direction);
-        return {direction, inverse_distance, pdf * inverse_distance * inverse_distance, pdf > F(0) && distance2 > F(0)};
+        return {direction, inverse_distance, pdf * inverse_distance * inverse_distance,
+                !(pdf <= F(0)) && distance2 > F(0)};
     }
     ORRERY_INLINE Vec3<typename V::F> colour(const Arrival<V>&) const {
         using F = typename V::F;
@@ -117,9 +118,10 @@ ORRERY_INLINE void sample_sphere(const LitVertex<V>& vertex, const Sphere<typena
                                  const typename V::U& id, const RandomNumbers<typename V::F>& random,
                                  LightSample<V>& sample) {
     using F = typename V::F;
-    // On the light itself its side is known; elsewhere the power of the point tells, as in `chord`.
+    // On the light itself its side is known; elsewhere the power of the point tells, as it tells `first_root` where a
+    // ray meets the light: from a point on its surface (0) only from within.
     const auto own = words_equal(vertex.sphere, id);
-    const auto within = power_of_point(vertex.position - sphere.centre, sphere.radius2) < F(0);
+    const auto within = power_of_point(vertex.position - sphere.centre, sphere.radius2) <= F(0);
     const auto inside = (own && vertex.inward) || (!own && within);
     if constexpr (strategy == LightStrategy::cone) {
         sample = sample_light_cone<V>(vertex.position, sphere, random.x, random.y);
@@ -140,7 +142,8 @@ ORRERY_INLINE void sample_sphere(const LitVertex<V>& vertex, const Sphere<typena
 /// compete.
 template <class F>
 ORRERY_INLINE F shared_ratio(const F& ratio) {
-    const F bounded = min(ratio, F(0x1p100f));  // beyond that the weight 1 / (1 + ratio) would make inf / inf
+    // Beyond 2^100 the weight 1 / (1 + ratio) would make inf / inf. What is no number stays none.
+    const F bounded = min(F(0x1p100f), ratio);
     return bounded / (F(1) + bounded);
 }
 
@@ -166,7 +169,7 @@ struct AreaSampler {
             response_pdf<V, response>(context, lobes, vertex.i, vertex.sphere, vertex.normal, sample.direction);
         F ratio = pdf * sample.inverse_pdf;
         if (context.competing) ratio = shared_ratio(ratio);
-        return {sample.direction, sample.inverse_distance, ratio, sample.valid && ratio > F(0)};
+        return {sample.direction, sample.inverse_distance, ratio, sample.valid && !(ratio <= F(0))};
     }
     ORRERY_INLINE Vec3<typename V::F> colour(const Arrival<V>&) const {
         using F = typename V::F;
@@ -196,9 +199,7 @@ ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<typename V::Real>& 
         const Vec3<F> normal = choose(inward, outward * F(-1), outward);
         const auto light = sampler(rays, LitVertex<V>{i, p, normal, id, inward, slot});
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
-        // A throughput that is no number goes on, to be counted where it would arrive.
-        const auto dead = throughput.x + throughput.y + throughput.z == F(0);
-        const std::uint32_t chosen = bits(light.arrives && in_run && !dead);
+        const std::uint32_t chosen = bits(light.arrives && in_run && !carries_nothing(throughput));
         if (chosen == 0) continue;
         if constexpr (Sampler::has_targets) {
             if (queue.target != nullptr) compress_store<V>(queue.target + size, sampler.target(light), chosen);

@@ -60,7 +60,7 @@ struct ChosenSampler {
             response_pdf<V, response>(context, lobes, vertex.i, vertex.sphere, vertex.normal, sample.direction);
         F ratio = pdf * sample.inverse_pdf * lookup<F>(lights.inverse_probability, light, lights.count);
         if (context.competing) ratio = choose(has_area, shared_ratio(ratio), ratio);
-        return {{sample.direction, sample.inverse_distance, ratio, sample.valid && ratio > F(0)}, light};
+        return {{sample.direction, sample.inverse_distance, ratio, sample.valid && !(ratio <= F(0))}, light};
     }
     ORRERY_INLINE Vec3<typename V::F> colour(const ChosenArrival<V>& of) const {
         return lookup3<V>(lights.r, lights.g, lights.b, of.light, lights.count);

@@ -8,12 +8,15 @@
 namespace orrery::kernels {
 
 /// Weight of emission found by scattering with density `pdf` against light sampling with density `light_pdf`: the
-/// balance heuristic (Veach and Guibas 1995). It keeps pdf * weight bounded where pdf has a singularity.
+/// balance heuristic (Veach and Guibas 1995). It keeps pdf * weight bounded where pdf has a singularity. Where the
+/// densities are 0 / 0, as that of a light met at t = 0 by a ray along its surface, the weight is 0; where pdf is no
+/// number, nor is the weight.
 template <class V>
 ORRERY_INLINE typename V::F scattering_weight(const typename V::F& pdf, const typename V::F& light_pdf) {
     using F = typename V::F;
     const auto whole = pdf > F(std::numeric_limits<typename V::Real>::max());
-    return choose(whole, F(1), F(1) / (F(1) + light_pdf / pdf));
+    const F share = F(1) / (F(1) + light_pdf / pdf);
+    return choose(whole, F(1), max(share, pdf * F(0)));  // the second where the first is no number
 }
 
 /// Adds the chosen lanes to their slots.

@@ -21,6 +21,10 @@ std::optional<Isa> isa_from_name(std::string_view name) {
     return std::nullopt;
 }
 
+// The build names each file's features once, for the compiler's options and for this question; it asks whether the
+// operating system saves the registers, too.
+#define ORRERY_HAS(feature) __builtin_cpu_supports(#feature)
+
 bool isa_supported(Isa isa) {
     switch (isa) {
         case Isa::scalar:
@@ -29,10 +33,9 @@ bool isa_supported(Isa isa) {
         case Isa::sse2:
             return true;
         case Isa::avx2:
-            return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+            return ORRERY_AVX2_NEEDS;
         case Isa::avx512:
-            return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                   __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+            return ORRERY_AVX512_NEEDS;
 #endif
         default:
             return false;

@@ -23,15 +23,14 @@ std::uint32_t roulette(const SlotTable<typename V::Real>& slots, std::uint32_t s
             const auto in_run = first_lanes<V>(run.count - n);
             const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
             const F carried = max(throughput.x, max(throughput.y, throughput.z));
-            // A throughput that is no number in any channel lives on, to be counted; max alone would lose it,
-            // and so would xsimd's !=, which is ordered on AVX.
-            const F sum = throughput.x + throughput.y + throughput.z;
-            auto alive = in_run && !(sum == F(0));
+            auto alive = in_run && !carries_nothing(throughput);
             if (play && any(alive)) {
                 const F scale = rays.eta_scale != nullptr ? load<F>(rays.eta_scale + i) : F(1);
                 const F q = min(carried / scale, F(1));
                 const U slot = choose(in_run, load<U>(rays.slot + i), U(0u));
                 const F u = random_for<V, 1>(slots, rays, i, key, bounce, slot).x;
+                // What is no number lives on, whichever channel it is in.
+                const F sum = throughput.x + throughput.y + throughput.z;
                 alive = alive && (u < q || !(sum == sum));
                 save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, throughput * (F(1) / q));
             }

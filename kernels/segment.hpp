@@ -33,7 +33,7 @@ template <class Real>
 SegmentHit<Real> intersects(const SphereTable<Real>& spheres, const Segment<Real>& segment) {
     using V = ScalarLanes<Real>;
     if (spheres.tree.count != 0) {
-        TreeHits<Real> hits;
+        TreeHits<Real, 1> hits;
         hits.t[0] = segment.t_max;
         closest_in_tree<V>(spheres, source_of(segment), 1, hits);
         return {hits.t[0], hits.id[0] & no_sphere, (hits.id[0] & inside_bit) != 0};
@@ -51,7 +51,7 @@ bool is_occluded(const SphereTable<Real>& spheres, const Segment<Real>& segment)
     const Real inverse_t_max = Real(1) / segment.t_max;
     if (spheres.tree.count != 0) {
         WordOf<Real> occluded = 0;
-        occluded_in_tree<V>(spheres, source_of(segment), &inverse_t_max, 1, no_sphere, &occluded);
+        occluded_in_tree<V, 1>(spheres, source_of(segment), &inverse_t_max, 1, no_sphere, &occluded);
         return occluded != 0;
     }
     const Vec3<Real> o{segment.ox, segment.oy, segment.oz}, d{segment.dx, segment.dy, segment.dz};

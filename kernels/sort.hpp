@@ -21,12 +21,10 @@ template <class V>
 ORRERY_INLINE LiveHits<V> live_hits(const SphereTable<typename V::Real>& spheres,
                                     const RayQueue<typename V::Real>& rays, const HitQueue<typename V::Real>& hits,
                                     std::uint32_t i, std::uint32_t count) {
-    using F = typename V::F;
     using U = typename V::U;
     const U hit = load<U>(hits.id + i);
-    const F carried = max(load<F>(rays.tr + i), max(load<F>(rays.tg + i), load<F>(rays.tb + i)));
     const auto met = first_lanes<V>(count - i) && !words_equal(hit, U(no_sphere));
-    const auto live = met && carried != F(0);
+    const auto live = met && !carries_nothing(load3<V>(rays.tr + i, rays.tg + i, rays.tb + i));
     return {live, met, lookup<U>(spheres.surface, choose(live, hit & U(no_sphere), U(0u)), spheres.count)};
 }
 

@@ -11,11 +11,11 @@
 namespace orrery::kernels {
 
 /// What a bunch of rays has found so far.
-template <class Real>
+template <class Real, std::uint32_t capacity = bunch_size>
 struct TreeHits {
     using Word = WordOf<Real>;
-    alignas(64) Real t[bunch_size];   ///< t_max where nothing was met
-    alignas(64) Word id[bunch_size];  ///< with inside_bit; no_sphere where nothing was met
+    alignas(64) Real t[capacity];   ///< t_max where nothing was met
+    alignas(64) Word id[capacity];  ///< with inside_bit; no_sphere where nothing was met
 };
 
 /// Rays of a queue or columns. They begin at their origins and leave `left`, or they begin at t_min and leave nothing:
@@ -59,18 +59,18 @@ ORRERY_INLINE void put_inner_roots(const SphereTable<typename V::Real>& spheres,
     id = choose(closer, left, id);
 }
 
-/// Closest hits of `count` <= bunch_size rays with t_min < t < t_max, as intersect.hpp's closest_hit has them.
+/// Closest hits of `count` <= capacity rays with t_min < t < t_max, as intersect.hpp's closest_hit has them.
 /// hits.t holds t_max for every ray.
-template <class V>
+template <class V, std::uint32_t capacity>
 ORRERY_INLINE void closest_in_tree(const SphereTable<typename V::Real>& spheres,
                                    const TreeSource<typename V::Real>& source, std::uint32_t count,
-                                   TreeHits<typename V::Real>& hits) {
+                                   TreeHits<typename V::Real, capacity>& hits) {
     using Real = typename V::Real;
     using Word = typename V::Word;
     using F = typename V::F;
     using U = typename V::U;
-    TreeRays<Real> rays;
-    TreeStack<Real> stack;
+    TreeRays<Real, capacity> rays;
+    TreeStack<V, capacity> stack;
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const auto o = load3<V>(source.ox + i, source.oy + i, source.oz + i);
         const auto d = load3<V>(source.dx + i, source.dy + i, source.dz + i);
@@ -80,10 +80,9 @@ ORRERY_INLINE void closest_in_tree(const SphereTable<typename V::Real>& spheres,
             left = choose(first_lanes<V>(count - i), load<U>(source.left + i), U(no_sphere));
             put_inner_roots<V>(spheres, o, d, left, t, id);
         }
-        put_tree_rays<V>(rays, i, o, d, left & U(no_sphere), spheres.tree.extent);
+        put_tree_rays<V>(rays, i, o, d, left & U(no_sphere), spheres.tree.extent, tree_limit(t));
         save(hits.t + i, t);
         save(hits.id + i, id);
-        save(rays.limit + i, tree_limit(t));
     }
     traverse<V>(spheres, rays, count, stack,
                 [&](std::uint32_t ray, const Chord<Real>& line, std::uint32_t k) ORRERY_INLINE_LAMBDA {
@@ -100,9 +99,9 @@ ORRERY_INLINE void closest_in_tree(const SphereTable<typename V::Real>& spheres,
                 });
 }
 
-/// Which of `count` <= bunch_size rays meet a sphere but `target` with t_min < t < 1 / inverse_t_max, as
+/// Which of `count` <= capacity rays meet a sphere but `target` with t_min < t < 1 / inverse_t_max, as
 /// intersect.hpp's any_hit has it: 1 or 0.
-template <class V, class Target>
+template <class V, std::uint32_t capacity = bunch_size, class Target>
 ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres,
                                     const TreeSource<typename V::Real>& source, const typename V::Real* inverse_t_max,
                                     std::uint32_t count, const Target& target, typename V::Word* occluded) {
@@ -110,8 +109,8 @@ ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres
     using F = typename V::F;
     using U = typename V::U;
     using One = ScalarLanes<Real>;
-    TreeRays<Real> rays;
-    TreeStack<Real> stack;
+    TreeRays<Real, capacity> rays;
+    TreeStack<V, capacity> stack;
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const auto o = load3<V>(source.ox + i, source.oy + i, source.oz + i);
         const auto d = load3<V>(source.dx + i, source.dy + i, source.dz + i);
@@ -126,9 +125,9 @@ ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres
                 blocked = choose(inward && t * inverse < F(1), U(1u), blocked);
             }
         }
-        put_tree_rays<V>(rays, i, o, d, left_id, spheres.tree.extent);
+        put_tree_rays<V>(rays, i, o, d, left_id, spheres.tree.extent,
+                         choose(words_equal(blocked, U(1u)), F(-1), tree_limit(F(1) / inverse)));
         save(occluded + i, blocked);
-        save(rays.limit + i, choose(words_equal(blocked, U(1u)), F(-1), tree_limit(F(1) / inverse)));
     }
     traverse<V>(spheres, rays, count, stack,
                 [&](std::uint32_t ray, const Chord<Real>& line, std::uint32_t k) ORRERY_INLINE_LAMBDA {

@@ -22,21 +22,23 @@ inline constexpr double slab_margin = 0x1p-19;
 inline constexpr double least_slope = 0x1p-40;
 inline constexpr double limit_margin = 1 + 0x1p-16;
 
-template <class Real>
+template <class Real, std::uint32_t capacity = bunch_size>
 struct alignas(64) TreeRays {
     using Word = WordOf<Real>;
-    using Column = Real[bunch_size];
+    using Column = Real[capacity];
     Column inverse[3], near[3], far[3];
     Column limit;  ///< no hit beyond this is of interest, margin included; negative: none at all
     Column origin[3], direction[3];
-    Word octant[bunch_size];  ///< bit a is set where the ray runs down axis a
-    Word left[bunch_size];    ///< the sphere it is not to meet; no_sphere for none
+    Word octant[capacity];  ///< bit a is set where the ray runs down axis a
+    Word left[capacity];    ///< the sphere it is not to meet; no_sphere for none
 };
 
-/// Fills lanes i.. of the columns.
-template <class V>
-ORRERY_INLINE void put_tree_rays(TreeRays<typename V::Real>& rays, std::uint32_t i, const Vec3<typename V::F>& o,
-                                 const Vec3<typename V::F>& d, const typename V::U& left, typename V::Real extent) {
+/// Fills lanes i.. of the columns. A ray that is not finite meets nothing, whatever its limit: to the boxes'
+/// comparisons it would meet all, also those of children that do not exist.
+template <class V, std::uint32_t capacity>
+ORRERY_INLINE void put_tree_rays(TreeRays<typename V::Real, capacity>& rays, std::uint32_t i,
+                                 const Vec3<typename V::F>& o, const Vec3<typename V::F>& d, const typename V::U& left,
+                                 typename V::Real extent, const typename V::F& limit) {
     using Real = typename V::Real;
     using F = typename V::F;
     using U = typename V::U;
@@ -61,6 +63,8 @@ ORRERY_INLINE void put_tree_rays(TreeRays<typename V::Real>& rays, std::uint32_t
     }
     save(rays.octant + i, octant);
     save(rays.left + i, left);
+    const F sum = o.x + o.y + o.z + (d.x + d.y + d.z);
+    save(rays.limit + i, choose(sum - sum == zero, limit, F(-1)));
 }
 
 }  // namespace orrery::kernels

@@ -22,12 +22,12 @@ struct TreeFrame {
     std::uint32_t begin, size;  ///< rays, in TreeStack's columns; a vector of guard behind them
 };
 
-/// Room for a path from the root to the deepest node, every ray of the bunch reaching it: 140 KB of stack, of which an
-/// ordinary tree touches a tenth.
-template <class Real>
+/// Room for a path from the root to the deepest node, every ray of the bunch reaching it: 140 KB of stack for a whole
+/// bunch, of which an ordinary tree touches a tenth, and 4 KB for a single ray.
+template <class V, std::uint32_t capacity>
 struct TreeStack {
-    using Word = WordOf<Real>;
-    static constexpr std::uint32_t room = (tree_depth + 1) * (bunch_size + tree_width);
+    using Word = typename V::Word;
+    static constexpr std::uint32_t room = (tree_depth + 1) * (capacity + V::count);
     TreeFrame frame[tree_depth];
     Word ray[room];  ///< place in TreeRays
     Word met[room];  ///< bit c: the ray has met child c
@@ -45,9 +45,9 @@ ORRERY_INLINE typename V::U consecutive(std::uint32_t first) {
 
 /// Writes for every ray of the list which children it meets before its limit, and none for a vector behind the last.
 /// Returns those any ray meets.
-template <class V>
+template <class V, std::uint32_t capacity>
 ORRERY_INLINE std::uint32_t meet_children(const TreeNode<typename V::Real>& node,
-                                          const TreeRays<typename V::Real>& rays, std::uint32_t octant,
+                                          const TreeRays<typename V::Real, capacity>& rays, std::uint32_t octant,
                                           const typename V::Word* list, std::uint32_t size, typename V::Word* met) {
     using F = typename V::F;
     std::uint32_t some = 0;
@@ -79,10 +79,10 @@ ORRERY_INLINE std::uint32_t meet_children(const TreeNode<typename V::Real>& node
 
 /// Tests every ray of the list against the sixteen spheres from `first` on. Behind a shorter leaf those are others of
 /// the table, which can do no harm.
-template <class V, class Meet>
+template <class V, std::uint32_t capacity, class Meet>
 ORRERY_INLINE void meet_spheres(const SphereTable<typename V::Real>& spheres, std::uint32_t first,
-                                TreeRays<typename V::Real>& rays, const typename V::Word* list, std::uint32_t size,
-                                const Meet& meet) {
+                                TreeRays<typename V::Real, capacity>& rays, const typename V::Word* list,
+                                std::uint32_t size, const Meet& meet) {
     using Real = typename V::Real;
     using F = typename V::F;
     using U = typename V::U;
@@ -128,14 +128,14 @@ ORRERY_INLINE std::uint32_t select(const typename V::Word* from, const typename 
 
 /// Calls meet(ray, chord, sphere) for every sphere (and some in vain) whose line a ray may meet before its limit. meet
 /// lowers the limit.
-template <class V, class Meet>
-ORRERY_INLINE void traverse(const SphereTable<typename V::Real>& spheres, TreeRays<typename V::Real>& rays,
-                            std::uint32_t count, TreeStack<typename V::Real>& stack, const Meet& meet) {
+template <class V, std::uint32_t capacity, class Meet>
+ORRERY_INLINE void traverse(const SphereTable<typename V::Real>& spheres, TreeRays<typename V::Real, capacity>& rays,
+                            std::uint32_t count, TreeStack<V, capacity>& stack, const Meet& meet) {
     using Word = typename V::Word;
     const auto& tree = spheres.tree;
-    alignas(64) Word places[bunch_size];
+    alignas(64) Word places[capacity];
     for (std::uint32_t i = 0; i < count; i += V::count) save(places + i, consecutive<V>(i));
-    for (std::uint32_t i = count; i < round_up(count); ++i) rays.octant[i] = 8;
+    for (std::uint32_t i = count; i % V::count != 0; ++i) rays.octant[i] = 8;
 
     for (std::uint32_t octant = 0; octant < 8; ++octant) {
         const std::uint32_t size = select<V>(places, rays.octant, count, ~Word{0}, octant, stack.ray);

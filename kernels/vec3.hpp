@@ -54,6 +54,14 @@ ORRERY_INLINE Vec3<F> choose(const M& m, const Vec3<F>& a, const Vec3<F>& b) {
     return {choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z)};
 }
 
+/// Lanes of a throughput, components >= 0, that carry nothing. One that is no number in any channel carries something:
+/// it goes on to the film, which drops and counts it. (max would forget a NaN in its first operand, and xsimd's != is
+/// ordered on AVX and not on SSE2.)
+template <class F>
+ORRERY_INLINE auto carries_nothing(const Vec3<F>& throughput) {
+    return throughput.x + throughput.y + throughput.z == F(0);
+}
+
 template <class V>
 ORRERY_INLINE Vec3<typename V::F> load3(const typename V::Real* x, const typename V::Real* y,
                                         const typename V::Real* z) {

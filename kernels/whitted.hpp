@@ -52,13 +52,15 @@ void branch(const ScatterContext<typename V::Real>& context, Range run, const Ra
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
         const auto weigh = [&](const Vec3<F>& w) {
             const Vec3<F> out = throughput * w;
-            const auto keep = in.live && max(out.x, max(out.y, out.z)) >= F(branch_cut<Real>);
-            return choose(keep, out, Vec3<F>{F(0), F(0), F(0)});
+            // Not by their maximum, which may forget what is no number.
+            const F cut(branch_cut<Real>);
+            const auto dropped = out.x < cut && out.y < cut && out.z < cut;
+            return choose(in.live && !dropped, out, Vec3<F>{F(0), F(0), F(0)});
         };
         const Vec3<F> transmitted = weigh(tau);
         const Vec3<F> mirrored = weigh(rho);
-        const auto continues = max(transmitted.x, max(transmitted.y, transmitted.z)) > F(0);
-        const auto postponed = continues && max(mirrored.x, max(mirrored.y, mirrored.z)) > F(0);
+        const auto continues = !carries_nothing(transmitted);
+        const auto postponed = continues && !carries_nothing(mirrored);
         const Vec3<F> mirror = unit(reflected(in.direction, vertex.normal, vertex.cosine));
         const Vec3<F> through = refracted<V>(in.direction, vertex.normal, vertex.cosine, at);
         const U mirror_left = vertex.sphere | vertex.side;

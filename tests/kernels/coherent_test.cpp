@@ -115,6 +115,40 @@ TEST_P(CoherentTest, MeetsWhatTheLoopMeets) {
     EXPECT_LT(met, all - all / 10);
 }
 
+// A ray that is no number meets nothing, and its neighbours what they would without it: it moves no bound, nor does it
+// make the bunch forget one ray that runs aside from all others.
+TEST_P(CoherentTest, NeighboursOfNoNumberMeetWhatTheyMeet) {
+    constexpr std::uint32_t count = 96;
+    for (const std::uint32_t size : {40u, 300u}) {
+        std::vector<Ball> balls{{{40, 0, 100}, 1}};
+        while (balls.size() < size) balls.push_back({{0, 0, 3.0 * static_cast<double>(balls.size())}, 1});
+        const Planted world(balls);
+        const auto intersect =
+            size <= kernels::SomeSpheres::capacity ? stages.intersect_coherent : stages.intersect_tree;
+        for (std::uint32_t bad = 1; bad < count; ++bad) {
+            Rays rays(count);
+            for (std::uint32_t i = 0; i < count; ++i) put_ray(*rays, i, {0, 0, 0}, {i == 0 ? 0.4 : 0, 0, 1}, no_sphere);
+            for (float* const column : {rays->ox, rays->oy, rays->oz, rays->dx, rays->dy, rays->dz})
+                column[bad] = std::numeric_limits<float>::quiet_NaN();
+            Hits hits(count), occluded(count);
+            intersect(world->spheres, *rays, count, *hits);
+            const std::vector<float> begin(count, 0), end(count, 1000);
+            stages.is_occluded(world->spheres,
+                               {rays->ox, rays->oy, rays->oz, rays->dx, rays->dy, rays->dz, begin.data(), end.data()},
+                               count, occluded->id);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                ASSERT_EQ(occluded->id[i], i == bad ? 0u : 1u);
+                if (i == bad) {
+                    ASSERT_EQ(hits->id[i], no_sphere);
+                    continue;
+                }
+                ASSERT_NE(hits->id[i], no_sphere) << "ray " << i << " beside " << bad << ", " << size << " spheres";
+                ASSERT_EQ(world.bare().cx[hits->id[i]], i == 0 ? 40 : 0);
+            }
+        }
+    }
+}
+
 // Worlds large enough for a tree: in a bunch of alike rays as each alone, where nothing can be bounded together.
 TEST_P(CoherentTest, MeetsInATreeWhatEachRayMeetsAlone) {
     std::uint32_t met = 0, all = 0, ids_apart = 0;

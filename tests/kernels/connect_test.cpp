@@ -219,6 +219,44 @@ TEST_P(ConnectTest, DeadVerticesConnectToNothing) {
     EXPECT_TRUE(queue.untouched_but(before, 0, kernels::widest - 1));
 }
 
+// A throughput that is no number goes to the light like any other, and with it through the film's count.
+TEST_P(ConnectTest, NoNumberIsLostWhicheverChannelItIsIn) {
+    const Slots slots(16, {"node"});
+    const kernels::PointLight<float> light{2, -3, 4, 10, 20, 30};
+    for (const bool competing : {false, true})
+        for (int channel = 0; channel < 3; ++channel) {
+            const LitVertices w = wave_of(125);
+            glm::dvec3 throughput(0);
+            throughput[channel] = std::numeric_limits<double>::quiet_NaN();
+            const auto shadow_rays = [&](auto stage, const auto& lamp) {
+                auto how = context(slots);
+                how.competing = competing;
+                Shadows queue(160);
+                const std::uint32_t size = stage(how, lamp, {begin, 125}, *w.rays, *w.lobes, *queue);
+                std::uint32_t none = 0;
+                for (std::uint32_t i = 0; i < size; ++i) {
+                    const glm::dvec3 radiance = get3(queue->r, queue->g, queue->b, i);
+                    none += std::isnan(radiance[channel]) ? 1u : 0u;
+                }
+                return std::pair(size, none);
+            };
+            for (const std::size_t r : {0u, 1u}) {
+                const auto set = [&](const glm::dvec3& to) {
+                    for (std::uint32_t i = begin; i < begin + 125; ++i) put3(w.rays->tr, w.rays->tg, w.rays->tb, i, to);
+                };
+                const auto compare = [&](auto stage, const auto& lamp) {
+                    set(glm::dvec3(1));
+                    const auto all = shadow_rays(stage, lamp).first;
+                    ASSERT_GT(all, 0u);
+                    set(throughput);
+                    EXPECT_EQ(shadow_rays(stage, lamp), std::pair(all, all)) << "channel " << channel;
+                };
+                compare(stages.connect_point[r], light);
+                for (const std::size_t s : {0u, 1u}) compare(stages.connect_area[s][r], area_light);
+            }
+        }
+}
+
 // A light at the vertex itself has no direction and no distance: nothing may come of it, least of all a NaN.
 TEST_P(ConnectTest, PointLightOnTheSurfaceItselfIsLeftOut) {
     const Slots slots(16, {"node"});

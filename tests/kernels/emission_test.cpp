@@ -138,6 +138,54 @@ TEST_P(EmissionTest, MissesCarryTheBackground) {
     expect_agrees(with_background, wave_of(with_background, 125), LightStrategy::cone);
 }
 
+// Along the surface of its own light a ray meets it at t = 0, where the density of light sampling is 0 / 0, and the
+// density of scattering may be 0 as well.
+TEST_P(EmissionTest, WhatNoDensityTellsWeighsNothing) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const World lamp({{glm::dvec3(0), 1, 0, 0}}, {Surface{}}, {{1, 2, 3}});
+    const auto radiance = [&](LightStrategy strategy, const glm::dvec3& direction, double pdf) {
+        const Rays rays(16);
+        const Hits hits(16);
+        const Slots slots(16);
+        put_ray(*rays, 0, {1, 0, 0}, direction, inside_bit);
+        rays->pdf[0] = narrow(pdf);
+        hits->id[0] = inside_bit;
+        hits->t[0] = 0;
+        slots->radiance[0] = slots->radiance[1] = slots->radiance[2] = 0;
+        stages.emission(lamp.spheres, lamp.emission, strategy, *rays, *hits, 1, *slots);
+        return slots->radiance[2];
+    };
+    for (const auto strategy : {LightStrategy::area, LightStrategy::cone}) {
+        const glm::dvec3 aside{0, 1, 0}, back{-1, 0, 0};
+        EXPECT_EQ(radiance(strategy, aside, 0.25), 0) << "0 / 0 against a number";
+        EXPECT_EQ(radiance(strategy, aside, 0), 0);
+        EXPECT_EQ(radiance(strategy, back, 0), 0) << "two densities of 0";
+        EXPECT_EQ(radiance(strategy, aside, infinity), 3) << "what no light sample competes with counts whole";
+        EXPECT_TRUE(std::isnan(radiance(strategy, back, none))) << "for the film to count";
+    }
+}
+
+// What is no number reaches the film, whichever channel it is in.
+TEST_P(EmissionTest, NoNumberIsLostWhicheverChannelItIsIn) {
+    World shining({{glm::dvec3(0), 1, 0, 0}}, {Surface{}}, {{1, 2, 3}});
+    shining.emission.background_r = shining.emission.background_g = shining.emission.background_b = 1;
+    shining.emission.has_background = true;
+    for (const bool missed : {false, true})
+        for (std::uint32_t channel = 0; channel < 3; ++channel) {
+            glm::dvec3 throughput(0);
+            throughput[static_cast<int>(channel)] = std::numeric_limits<double>::quiet_NaN();
+            const Rays rays(16, {"pdf"});
+            const Hits hits(16);
+            const Slots slots(16);
+            put_ray(*rays, 0, {3, 0, 0}, {-1, 0, 0}, no_sphere, throughput);
+            hits->id[0] = missed ? no_sphere : 0;
+            hits->t[0] = missed ? narrow(infinity) : 2;
+            for (std::uint32_t c = 0; c < 4; ++c) slots->radiance[c] = 0;
+            stages.emission(shining.spheres, shining.emission, LightStrategy::cone, *rays, *hits, 1, *slots);
+            EXPECT_TRUE(std::isnan(slots->radiance[channel])) << "channel " << channel << (missed ? ", missed" : "");
+        }
+}
+
 TEST_P(EmissionTest, ADarkWorldAddsNothing) {
     const World dark({{glm::dvec3(0, 0, 0), 1}});
     const Wave w = wave_of(dark, 125);

@@ -1,13 +1,17 @@
 // Ray casting of segments: the scalar form and the columns, their open ends, and each other.
 #include "kernels/segment.hpp"
 
+#include <pthread.h>
+
 #include <array>
 #include <cstdlib>
+#include <functional>
 
 #include "geometry.hpp"
 #include "kernel_test.hpp"
 #include "numbers.hpp"
 #include "owned.hpp"
+#include "planted.hpp"
 
 namespace orrery::kernel_tests {
 namespace {
@@ -131,6 +135,38 @@ std::vector<End> open_ends() {
             {before6, infinity, inside_bit, 6},
             {before6, 6, no_sphere, 6},
             {6, infinity, no_sphere, infinity}};
+}
+
+/// Runs `work` in a thread with this much stack.
+void run_with_stack(std::size_t bytes, const std::function<void()>& work) {
+    pthread_attr_t attributes;
+    ASSERT_EQ(pthread_attr_init(&attributes), 0);
+    ASSERT_EQ(pthread_attr_setstacksize(&attributes, bytes), 0);
+    pthread_t thread;
+    const auto call = [](void* f) -> void* {
+        (*static_cast<const std::function<void()>*>(f))();
+        return nullptr;
+    };
+    ASSERT_EQ(pthread_create(&thread, &attributes, call, const_cast<void*>(static_cast<const void*>(&work))), 0);
+    EXPECT_EQ(pthread_join(thread, nullptr), 0);
+    pthread_attr_destroy(&attributes);
+}
+
+// A segment takes room for itself, not for a bunch of rays: it may be cast where stacks are small.
+TEST(SegmentScalar, ThroughATreeTakesLittleStack) {
+    std::vector<Ball> balls;
+    for (int i = 0; i < 1000; ++i) balls.push_back({glm::dvec3(i % 10, i / 10 % 10, i / 100) * 3.0, 1});
+    const Planted world(balls);
+    ASSERT_NE(world->spheres.tree.count, 0u);
+    const kernels::Segment<float> segment{-5, 3, 3, 1, 0, 0};
+    kernels::SegmentHit<float> hit{};
+    bool occluded = false;
+    run_with_stack(std::size_t{64} << 10, [&] {
+        hit = kernels::intersects(world->spheres, segment);
+        occluded = kernels::is_occluded(world->spheres, segment);
+    });
+    EXPECT_EQ(hit.t, 4);
+    EXPECT_TRUE(occluded);
 }
 
 TEST(SegmentScalar, EndsAreOpen) {

@@ -151,6 +151,31 @@ TEST_P(SortTest, AQueueOfOneKindStaysWhereItIs) {
     EXPECT_FALSE(moves(std::vector<std::uint32_t>(60, absent), false)) << "nothing met anything";
 }
 
+// A throughput that is no number must reach the film, which counts and drops it: it is as alive as any other.
+TEST_P(SortTest, NoNumberIsLostWhicheverChannelItIsIn) {
+    const World world = world_of_kinds();
+    for (const std::uint32_t kinds : {1u, 2u, 5u})
+        for (int channel = 0; channel < 3; ++channel)
+            for (const double others : {0.0, 0.5}) {
+                constexpr std::uint32_t count = 125;
+                std::vector<std::uint32_t> kind(count);
+                for (std::uint32_t i = 0; i < count; ++i) kind[i] = i % kinds;
+                const Wave w = wave_of(kind);
+                glm::dvec3 throughput(others);
+                throughput[channel] = std::numeric_limits<double>::quiet_NaN();
+                for (std::uint32_t i = 0; i < count; ++i) put3(w.rays->tr, w.rays->tg, w.rays->tb, i, throughput);
+                Rays sorted(kernels::ray_capacity(count));
+                Hits sorted_hits(kernels::ray_capacity(count));
+                Runs runs;
+                EXPECT_EQ(stages.sort_by_scattering(world.spheres, all_kinds, *w.rays, *w.hits, count, *sorted,
+                                                    *sorted_hits, runs),
+                          kinds > 1);
+                std::uint32_t alive = 0;
+                for (const kernels::Range& run : runs.run) alive += run.count;
+                EXPECT_EQ(alive, count) << "channel " << channel << ", others " << others << ", " << kinds << " kinds";
+            }
+}
+
 TEST_P(SortTest, StableByKind) {
     for (const std::uint32_t count : awkward_counts)
         for (std::uint64_t seed = 0; seed < 20; ++seed) expect_sorts(wave_of(random_kinds(count, seed)));

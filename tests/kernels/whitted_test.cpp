@@ -200,6 +200,29 @@ TEST_P(WhittedTest, BranchesAreFresnels) {
     }
 }
 
+// The cut is for the weak: what is no number goes on, by either branch, to where the film counts it.
+TEST_P(WhittedTest, NoNumberIsLostWhicheverChannelItIsIn) {
+    const World world({{glm::dvec3(0), 1}}, {Surface{Scattering::dielectric, glm::dvec3(1), glm::dvec3(1), 1.5}});
+    for (int channel = 0; channel < 3; ++channel)
+        for (const double others : {0.0, 1e-9, 1.0}) {
+            glm::dvec3 throughput(others);
+            throughput[channel] = std::numeric_limits<double>::quiet_NaN();
+            const Rays rays(48, {"pdf", "eta_scale"});
+            const Hits hits(48);
+            const Slots slots(16);
+            const Stack stack(16, 2);
+            put_ray(*rays, 0, {3, 0, 0}, {-1, 0, 0}, no_sphere, throughput);
+            rays->slot[0] = 0;
+            slots->node[0] = 1;
+            hits->id[0] = 0;
+            hits->t[0] = 2;
+            stages.branch({world.spheres, world.materials, *slots, 0, 0, false}, {0, 1}, *rays, *hits, stack.view);
+            EXPECT_TRUE(std::isnan(throughput_of(*rays, 0)[channel])) << "channel " << channel << ", " << others;
+            ASSERT_EQ(stack.view.height[0], 1u) << "channel " << channel << ", " << others;
+            EXPECT_TRUE(std::isnan(throughput_of(stack.view.rays, 0)[channel]));
+        }
+}
+
 TEST_P(WhittedTest, ResumeTakesTheTopBranchOfEverySlotWithoutARay) {
     for (const std::uint32_t slot_count : {1u, 15u, 17u, 125u}) {
         constexpr std::uint32_t levels = 3;
