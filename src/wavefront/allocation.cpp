@@ -36,9 +36,12 @@ std::vector<double> allocate(std::span<const Region> regions, double target, dou
         const std::vector<double> samples = at_density(regions, density);
         return error_left(regions, samples) <= target || total_samples(regions, samples) >= limit;
     };
-    double high = 1;
-    while (!enough(high)) high *= 2;
-    double low = 0;
+    if (enough(0)) return at_density(regions, 0);
+    // To within a factor of two first: what density that is depends on how bright the image is, and one that could not
+    // be told from 0 would give samples without end.
+    double low = 0.5, high = 1;
+    while (!enough(high)) low = high, high *= 2;
+    while (enough(low)) high = low, low /= 2;
     for (int i = 0; i < 50; ++i) {
         const double middle = low + (high - low) / 2;
         (enough(middle) ? high : low) = middle;

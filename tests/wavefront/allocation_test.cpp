@@ -49,6 +49,20 @@ TEST(Allocation, StopsAtTheLimit) {
     EXPECT_EQ(allocate(regions, 1e-9, 100), (std::vector<double>{8, 8})) << "beyond the limit already";
 }
 
+// A path that meets the brightest lamp there may be scatters by 1e60.
+TEST(Allocation, IsTheSameForScatterOfAnySize) {
+    const std::vector<Region> regions = {{10, 4, 10}, {10, 10, 10}, {10, 10, 90}};
+    for (const double size : {1e-60, 1e-20, 1e20, 1e60}) {
+        std::vector<Region> other = regions;
+        for (Region& region : other) region.scatter *= size;
+        for (const double limit : {unlimited, 400.0}) {
+            const auto wanted = allocate(regions, 1, limit), samples = allocate(other, size, limit);
+            for (std::size_t i = 0; i < regions.size(); ++i)
+                EXPECT_NEAR(samples[i], wanted[i], 1e-9 * wanted[i]) << "region " << i << ", scatter times " << size;
+        }
+    }
+}
+
 TEST(Allocation, LeavesRegionsWithoutScatterAlone) {
     const std::vector<Region> regions = {{100, 8, 0}, {50, 8, 200}};
     EXPECT_EQ(allocate(regions, 0.1, unlimited)[0], 8);
