@@ -48,6 +48,9 @@ double kept_of(double mean, double variance, double around, double variance_arou
 /// numbers of samples, against what is left of the estimate's bias (bench/COVERAGE.md).
 double systematic(double doubt) { return 0.1 * std::sqrt(doubt) + 0.3 * doubt; }
 
+/// What blocks of cells (contrasts.hpp) leave of the variance that they claim where edges are all the error there is.
+constexpr double left_of_edges = 0.81;
+
 /// An upper end of the interval farther away is none: so few samples carry the estimate that it may have missed as
 /// much.
 constexpr double largest_factor = 2;
@@ -60,8 +63,11 @@ RootMeanSquare SquaredError::root_mean() const {
     if (sum_ == 0) return {0, 0, 0};
     const double value = std::sqrt(sum_ / static_cast<double>(pixels_));
     constexpr double quantile = 1.96;
-    // Half the standard error of the logarithm of the mean square is that of the logarithm of its root.
-    const double by_chance = std::exp(quantile * std::sqrt(2 * squares_) / sum_ / 2);
+    // Half the standard error of the logarithm of the mean square is that of the logarithm of its root. Of squares of
+    // normal numbers, n of them, the sum of squares over the squared sum is on average too small by n / (n + 2).
+    const double seen = 2 * squares_ / (sum_ * sum_);
+    const double relative_variance = seen / std::max(1 - seen / 2, 1e-3);
+    const double by_chance = std::exp(quantile * std::sqrt(relative_variance) / 2);
     const double factor = by_chance * std::exp(systematic(doubt()));
     const double least = std::sqrt(least_ / static_cast<double>(pixels_)) / by_chance;
     return {value, std::min(value / factor, least), factor < largest_factor ? value * factor : unknown};
@@ -69,7 +75,9 @@ RootMeanSquare SquaredError::root_mean() const {
 
 void ErrorSums::add(const PixelEstimate& pixel, const Surroundings& around) {
     const Rgb64& variance = pixel.variance;
-    absolute.add((variance.r + variance.g + variance.b) / 3, pixel.degrees);
+    const double without_edges = pixel.blocks ? left_of_edges : 1;
+    const double mean_variance = (variance.r + variance.g + variance.b) / 3;
+    absolute.add(mean_variance, pixel.degrees, without_edges * mean_variance, 0);
     double sum = 0, least = 0, doubtful = 0;
     for (const double Rgb64::*channel : {&Rgb64::r, &Rgb64::g, &Rgb64::b}) {
         const double v = variance.*channel, mean = pixel.mean.*channel, skew = pixel.skew.*channel;
@@ -82,7 +90,7 @@ void ErrorSums::add(const PixelEstimate& pixel, const Surroundings& around) {
             error = v * inverse_square(mean, v, skew, pixel.degrees, others, of_others, kept);
         }
         sum += error / 3;
-        least += by_itself / 3;
+        least += without_edges * std::min(by_itself, error) / 3;
         doubtful += error * std::min(error, 1.0) / 3;
     }
     relative.add(sum, pixel.degrees, least, doubtful);

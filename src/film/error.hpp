@@ -36,11 +36,11 @@ inline constexpr double relative_floor = 0.01;
 ///
 /// What is relative is relative to a truth that is known no better than the image. Of the error of a pixel whose own
 /// relative error is r, the share min(r^2, 1) is in doubt. Where a bright sample in dark surroundings is all that was
-/// met of many that there are, the truth is brighter than these, and the error less: that the interval must hold, too.
+/// met of many that there are, the truth is brighter than these, and the error less: that the interval must hold, too;
+/// and so it must what blocks of cells have counted in vain at edges.
 class SquaredError {
 public:
-    void add(double variance, double contrasts) { add(variance, contrasts, variance, 0); }
-    /// `least`: what it would be if the pixel's mean were all that is known of the truth.
+    /// `least`: what the variance may be as well, `doubtful`: the part of it that is in doubt.
     void add(double variance, double contrasts, double least, double doubtful) {
         sum_ += variance;
         squares_ += variance * variance * (contrasts + 1) / (contrasts + 2);

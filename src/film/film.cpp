@@ -22,13 +22,14 @@ PixelEstimate Film::estimate(std::size_t pixel) const {
     const Pixel& sum = pixels_[pixel];
     const Spread& spread = spreads_[pixel];
     constexpr double unknown = std::numeric_limits<double>::infinity();
-    PixelEstimate estimate{{}, {unknown, unknown, unknown}, {}, 0};
+    PixelEstimate estimate{{}, {unknown, unknown, unknown}, {}, 0, false};
     if (sum.samples == 0) return estimate;
     const auto n = static_cast<double>(sum.samples);
     estimate.mean = {sum.r / n, sum.g / n, sum.b / n};
     if (spread.members == 0) return estimate;
     const bool one = contrasting_ == Contrasting::one;
     estimate.degrees = one ? 1 : spread.contrasts;
+    estimate.blocks = spread.members > 2 * spread.contrasts;
     // The members' sum has the variance of the squares; the sum of all samples has as much more as they are more, and
     // the mean n^2 times less.
     const double scale = 1 / (static_cast<double>(spread.members) * n);

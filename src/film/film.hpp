@@ -49,9 +49,10 @@ struct Spread {
 /// A pixel's mean, how far it may be from the truth, and from how much that is known.
 struct PixelEstimate {
     Rgb64 mean;
-    Rgb64 variance;      ///< of `mean`; infinite where nothing tells, as with a single sample
-    Rgb64 skew;          ///< third cumulant of `mean` over its variance: what a typical bright sample adds to it
-    double degrees = 0;  ///< of freedom of `variance`
+    Rgb64 variance;       ///< of `mean`; infinite where nothing tells, as with a single sample
+    Rgb64 skew;           ///< third cumulant of `mean` over its variance: what a typical bright sample adds to it
+    double degrees = 0;   ///< of freedom of `variance`
+    bool blocks = false;  ///< from blocks of cells: at edges too large
 };
 
 /// Sums of samples. Sums are double because a float sum of 2^24 samples is wrong by percents.

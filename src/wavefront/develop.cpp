@@ -16,7 +16,7 @@ PixelEstimate estimate(const Film& film, Integrator integrator, std::size_t pixe
     if (integrator != Integrator::depth) return mean;
     const double v = 1 / (1 + mean.mean.r);
     const double variance = mean.variance.r * v * v * v * v, skew = -mean.skew.r * v * v;
-    return {{v, v, v}, {variance, variance, variance}, {skew, skew, skew}, mean.degrees};
+    return {{v, v, v}, {variance, variance, variance}, {skew, skew, skew}, mean.degrees, mean.blocks};
 }
 
 }  // namespace

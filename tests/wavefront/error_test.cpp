@@ -11,7 +11,6 @@ namespace {
 struct Case {
     const char* name;
     Scene scene;
-    double narrowest, widest;  ///< share of renders whose error lies in their 95 % interval
 };
 
 Scene noisy(Estimator estimator) {
@@ -37,18 +36,31 @@ Scene distances() {
     return scene;
 }
 
-constexpr std::uint32_t renders = 100;
+/// A lamp behind a ball of glass that throws its light on the floor: bright paths that few samples find, next to pixels
+/// that none lights. The error of such an image is that of a few dozen of its pixels.
+Scene caustic() {
+    Scene scene = picture({0, 3, -5}, {0, 0, 0.5}, 30, 5);
+    add_sphere(scene, {0, -40, 0}, 40, diffuse({0.8, 0.6, 0.4}));
+    add_sphere(scene, {0, 1, 1}, 0.9, glass(0.9, 1.5));
+    add_lamp(scene, {0, 3.5, 3}, 0.5, {40, 30, 20}, diffuse(dvec3{0}));
+    scene.settings.width = scene.settings.height = 24;
+    scene.settings.samples = 256;
+    return scene;
+}
+
+constexpr std::uint32_t renders = 200;
+/// 95 % of 200 is 190 with a standard deviation of 3.1; less than three of them below that, of twelve counts.
+constexpr int fewest_inside = 181;
 
 class Coverage : public testing::TestWithParam<int> {};
 
-// 95 % of 100 renders is 95 with a standard deviation of 2.2. Where 2 x 2 blocks meet oblique edges they claim too much
-// error rather than too little, and distances have three channels that are one: both widen the share downwards.
 TEST_P(Coverage, OfTheInterval) {
-    const Case cases[] = {{"uniform", noisy(Estimator::uniform), 0.88, 1},
-                          {"stratified", noisy(Estimator::stratified), 0.88, 1},
-                          {"sobol", noisy(Estimator::sobol), 0.88, 1},
-                          {"edges", whitted(), 0.75, 1},
-                          {"distances", distances(), 0.85, 1}};
+    const Case cases[] = {{"uniform", noisy(Estimator::uniform)},
+                          {"stratified", noisy(Estimator::stratified)},
+                          {"sobol", noisy(Estimator::sobol)},
+                          {"edges", whitted()},
+                          {"distances", distances()},
+                          {"caustic", caustic()}};
     const Case& c = cases[GetParam()];
     Scene scene = c.scene;
     scene.settings.samples = 16384;
@@ -84,13 +96,12 @@ TEST_P(Coverage, OfTheInterval) {
     RecordProperty("inside_absolute", inside_absolute);
     RecordProperty("made_over_stated", std::to_string(std::sqrt(made_squares / stated_squares)));
     for (const int count : {inside, inside_absolute}) {
-        EXPECT_GE(count, c.narrowest * renders) << c.name << ": " << inside << ", " << inside_absolute;
-        EXPECT_LE(count, c.widest * renders) << c.name;
+        EXPECT_GE(count, fewest_inside) << c.name << ": " << inside << ", " << inside_absolute;
     }
     EXPECT_NEAR(std::sqrt(made_squares / stated_squares), 1, 0.15) << c.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Coverage, testing::Range(0, 5));
+INSTANTIATE_TEST_SUITE_P(Scenes, Coverage, testing::Range(0, 6));
 
 TEST(StandardError, IsTheSameForAnyWaveSizeAndNumberOfThreads) {
     for (const Estimator estimator : {Estimator::uniform, Estimator::stratified, Estimator::sobol}) {
