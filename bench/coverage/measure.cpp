@@ -57,6 +57,7 @@ Row measure(const Scene& scene, const Case& tried, std::uint32_t renders) {
         copy.settings.seed = 1 + i;
         RenderOptions options;
         options.goal = tried.goal;
+        options.threads = 1;  // small images: threads would wait for each other
         const RenderResult result = render(Plan(copy), options);
         Numbers& numbers = images.emplace_back();
         for (const Rgb& pixel : result.image.pixels) numbers.insert(numbers.end(), {pixel.r, pixel.g, pixel.b});
