@@ -7,10 +7,10 @@
 namespace orrery {
 
 /// The whole file in memory, so that nothing on disk is touched before all of it is known. `mapper` concerns the
-/// 8-bit formats only. Throws std::runtime_error, and std::bad_alloc.
+/// 8-bit formats only. Throws std::runtime_error, what exr.hpp says, and std::bad_alloc.
 Bytes encode_image(ImageFormat format, const Image& linear, ToneMap mapper, const Metadata& metadata);
 
-/// By the first bytes, whatever the file is called. Throws std::runtime_error.
+/// By the first bytes, whatever the file is called. Throws as encode_image.
 Image decode_image(ByteView file);
 
 }  // namespace orrery
