@@ -1,6 +1,9 @@
 // A million spheres made ready for rays.
 #include <fmt/format.h>
+
+#if ORRERY_EMBREE
 #include <tbb/global_control.h>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +55,6 @@ struct Shuffled {
 TimedBy clock_for(unsigned threads) { return threads == 1 ? TimedBy::processor : TimedBy::wall; }
 
 void run_ours(benchmark::State& state, const Plan& plan, unsigned threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     const Shuffled given(plan.tables().spheres);
     const std::uint32_t count = plan.tables().spheres.count;
     double best = INFINITY;
@@ -61,7 +63,7 @@ void run_ours(benchmark::State& state, const Plan& plan, unsigned threads) {
         for (std::uint32_t k = 0; k < count; ++k)
             spheres.push_back({given.x[k], given.y[k], given.z[k], given.radius[k], k});
         const Stopwatch watch(clock_for(threads));
-        const Tree tree = build_tree(spheres);
+        const Tree tree = build_tree(spheres, threads);
         const double seconds = watch.seconds();
         if (tree.nodes.size() != plan.tables().spheres.tree.count) fail(state, "the tree is not the plan's");
         state.SetIterationTime(seconds);
@@ -74,7 +76,7 @@ void run_ours(benchmark::State& state, const Plan& plan, unsigned threads) {
 #if ORRERY_EMBREE
 void run_embree(benchmark::State& state, const Plan& plan, unsigned threads, RTCBuildQuality quality,
                 const std::string& who) {
-    // By TBB's limit, as ours: the first device's threads=N would hold for the whole process.
+    // By TBB's limit: the first device's threads=N would hold for the whole process.
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     const Shuffled given(plan.tables().spheres);
     double bytes = 0;

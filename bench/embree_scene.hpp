@@ -49,7 +49,7 @@ private:
 /// The configuration queries are fastest with: asked for heavy AVX-512 Embree finds closest hits up to a tenth faster
 /// and occlusion up to a third slower than left alone. isa=avx2 is slower throughout, hugepages=1 changes nothing.
 constexpr const char* embree_config(bool occlusion) {
-    // No threads=1: a query runs on its caller's thread anyway, and the device would keep all of TBB, ours too, to one.
+    // No threads=1: a query runs on its caller's thread anyway, and the device would keep all of TBB to one.
     return occlusion ? "" : "frequency_level=simd512";
 }
 

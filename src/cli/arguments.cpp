@@ -16,13 +16,13 @@
 #include "cli/version.hpp"
 #include "scene/printable.hpp"
 #include "scene/spelling.hpp"
+#include "wavefront/render.hpp"
 
 namespace orrery {
 namespace {
 
 constexpr std::uint32_t any = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t most_threads = 1024;
-constexpr std::uint32_t largest_wave = 1u << 20;
 
 template <class Value, std::size_t count>
 void add_choice(CLI::App& app, const char* name, const Words<Value, count>& words, const std::string& help,

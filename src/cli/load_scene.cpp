@@ -1,6 +1,4 @@
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 
 #include "cli/commands.hpp"
 #include "cli/late_notice.hpp"
@@ -32,11 +30,7 @@ std::optional<Scene> load_scene(const Arguments& arguments) {
 Plan plan_visibly(const Arguments& arguments, Scene scene) {
     const LateNotice notice(!arguments.quiet,
                             fmt::format("building a tree of {} ...", counted(scene.primitives.size(), "sphere")));
-    // The builder takes all cores it is granted.
-    const auto cores = static_cast<std::size_t>(tbb::info::default_concurrency());
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    arguments.threads != 0 ? arguments.threads : cores);
-    return Plan(std::move(scene));
+    return Plan(std::move(scene), arguments.threads);
 }
 
 }  // namespace orrery

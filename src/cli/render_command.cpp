@@ -30,22 +30,25 @@ struct Stopped {
 /// Renders under a progress bar until done or until a signal asks to stop.
 std::variant<RenderResult, Stopped> render_until_signal(const Plan& plan, const Arguments& arguments,
                                                         const Goal& goal) {
+    const Loss loss("orrery: interrupted: the render is lost, no image was written\n");
     const DeferredSignals signals;
-    ProgressBar bar(!arguments.quiet);
+    std::optional<ProgressBar> bar(std::in_place, !arguments.quiet);
     RenderOptions options;
     options.threads = arguments.threads;
     options.isa = arguments.isa;
     options.wave_size = arguments.wave_size;
     options.goal = goal;
-    options.pass_done = [&](const ImageError& error) { bar.set_error(error.relative.value); };
+    options.pass_done = [&](const ImageError& error) { bar->set_error(error.relative.value); };
     options.standard_error = arguments.error_image.has_value();
     options.interrupted = [&] { return signals.caught() != 0; };
-    if (bar.shows()) options.progress = [&](double fraction, std::uint64_t rays) { bar.update(fraction, rays); };
+    if (bar->shows()) options.progress = [&](double fraction, std::uint64_t rays) { bar->update(fraction, rays); };
     try {
         RenderResult result = render(plan, options);
         if (signals.caught() == 0) return result;
     } catch (const Interrupted&) {
     }
+    bar.reset();
+    Loss::say();
     return Stopped{signals.caught()};
 }
 
@@ -99,6 +102,7 @@ int render_command(const Arguments& arguments) {
     }
     const auto outcome = render_until_signal(plan, arguments, goal);
     if (const auto* stopped = std::get_if<Stopped>(&outcome)) return exit_code::ended_by(stopped->signal);
+    const Loss loss("orrery: interrupted: what was rendered and is not named above was not written and is lost\n");
     const auto& [image, standard_error, stats] = std::get<RenderResult>(outcome);
 
     Making making{.goal = goal, .samples = stats.samples_per_pixel};
@@ -114,6 +118,9 @@ int render_command(const Arguments& arguments) {
         print_message(summary(plan, goal, stats));
         if (stats.dropped_samples > 0)
             print_warning(fmt::format("{} not finite and dropped", counted(stats.dropped_samples, "sample")));
+        if (stats.refused_threads > 0)
+            print_warning(fmt::format("the system refused {} of {}; the others did the work", stats.refused_threads,
+                                      counted(stats.refused_threads + stats.threads, "thread")));
     }
     if (arguments.profile) print_message(profile_table(stats));
     // Where the statistics take standard output they name the images, and it stays one JSON document.

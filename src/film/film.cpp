@@ -1,20 +1,21 @@
 #include "film/film.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
 namespace orrery {
 
+Rgb Film::mean(std::size_t pixel) const {
+    const Pixel& sum = pixels_[pixel];
+    if (sum.samples == 0) return {};
+    // Rounded to float once, after the division: the mean of equal samples is that sample.
+    const auto count = static_cast<double>(sum.samples);
+    return {static_cast<float>(sum.r / count), static_cast<float>(sum.g / count), static_cast<float>(sum.b / count)};
+}
+
 Image Film::mean() const {
     Image image{width_, height_, std::vector<Rgb>(pixels_.size())};
-    std::transform(pixels_.begin(), pixels_.end(), image.pixels.begin(), [](const Pixel& sum) {
-        if (sum.samples == 0) return Rgb{};
-        // Rounded to float once, after the division: the mean of equal samples is that sample.
-        const auto count = static_cast<double>(sum.samples);
-        return Rgb{static_cast<float>(sum.r / count), static_cast<float>(sum.g / count),
-                   static_cast<float>(sum.b / count)};
-    });
+    for (std::size_t i = 0; i < pixels_.size(); ++i) image.pixels[i] = mean(i);
     return image;
 }
 

@@ -115,6 +115,7 @@ public:
     std::uint64_t samples(std::size_t pixel) const { return pixels_[pixel].samples; }
 
     /// Mean of the samples that got in; black where there is none.
+    Rgb mean(std::size_t pixel) const;
     Image mean() const;
 
     /// What is known of a pixel; its mean is black where there is no sample.

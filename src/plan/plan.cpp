@@ -19,7 +19,7 @@ constexpr std::uint32_t bit(Scattering kind) { return 1u << static_cast<unsigned
 
 }  // namespace
 
-Plan::Plan(Scene scene) : scene_(std::move(scene)) {
+Plan::Plan(Scene scene, unsigned threads) : scene_(std::move(scene)) {
     RenderSettings& s = scene_.settings;
     require_valid(scene_);
     unit_ = length_unit(scene_);
@@ -32,7 +32,7 @@ Plan::Plan(Scene scene) : scene_(std::move(scene)) {
     }
     plan_camera();
     plan_needs();
-    plan_tables();
+    plan_tables(threads);
 }
 
 std::uint32_t Plan::samples() const {
@@ -67,7 +67,7 @@ void Plan::plan_camera() {
 }
 
 /// Few spheres keep their order; many take their tree's.
-void Plan::plan_tables() {
+void Plan::plan_tables(unsigned threads) {
     std::vector<std::uint32_t> order(scene_.primitives.size());
     std::iota(order.begin(), order.end(), 0u);
     needs_.tree = order.size() >= tree_crossover;
@@ -80,7 +80,7 @@ void Plan::plan_tables() {
             const auto f = [&](double length) { return static_cast<float>(unit_.in_units(length)); };
             spheres.push_back({f(p.centre.x), f(p.centre.y), f(p.centre.z), f(p.radius), i});
         }
-        tree = build_tree(spheres);
+        tree = build_tree(spheres, threads);
         std::ranges::transform(spheres, order.begin(), &BuildSphere::index);
     }
     nodes_ = tree.nodes.size();

@@ -45,8 +45,9 @@ struct Decision {
 /// Plans do not copy.
 class Plan {
 public:
-    /// Throws std::invalid_argument where a scene built by hand breaks what the reader guarantees.
-    explicit Plan(Scene scene);
+    /// Makes it on so many threads, 0 being one per processor. Throws std::invalid_argument where a scene built by hand
+    /// breaks what the reader guarantees.
+    explicit Plan(Scene scene, unsigned threads = 0);
     Plan(const Plan&) = delete;
     Plan& operator=(const Plan&) = delete;
 
@@ -75,7 +76,7 @@ public:
 
 private:
     void plan_camera();
-    void plan_tables();
+    void plan_tables(unsigned threads);
     void plan_needs();
     /// How many lights vertices aim at.
     std::size_t sampled_lights() const;

@@ -1,15 +1,15 @@
 #include "plan/tree.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
+#include <list>
+#include <mutex>
 #include <stdexcept>
 
 #include "plan/tree_split.hpp"
+#include "system/threads.hpp"
 
 namespace orrery {
 
@@ -68,31 +68,40 @@ void collapse(Run& run, double unit) {
 
 class BinaryBuilder {
 public:
-    explicit BinaryBuilder(std::span<BuildSphere> spheres) : spheres_(spheres) {}
+    BinaryBuilder(std::span<BuildSphere> spheres, unsigned threads) : spheres_(spheres), fork_(threads) {}
 
     Run* build() {
         const Span3 span = measure(spheres_);
         const double area = span.bound.area();
         unit_ = area > 0 ? 1 / area : 0;
-        return build(0, spheres_.size(), span, 0);
+        return build(0, spheres_.size(), span, 0, room());
     }
 
 private:
-    Run* build(std::size_t first, std::size_t size, const Span3& span, unsigned depth) {
-        Run* const run = &runs_.local().emplace_back();
+    using Room = std::deque<Run>;  ///< for the runs of one thread
+
+    Room& room() {
+        const std::lock_guard lock(mutex_);
+        return rooms_.emplace_back();
+    }
+
+    Run* build(std::size_t first, std::size_t size, const Span3& span, unsigned depth, Room& runs) {
+        Run* const run = &runs.emplace_back();
         run->bound = span.bound;
         run->first = static_cast<std::uint32_t>(first);
         run->size = static_cast<std::uint32_t>(size);
         if (size <= tree_width) return run;
         const Cut parts = cut(spheres_.subspan(first, size), span, depth >= heuristic_depth);
         run->axis = parts.axis;
-        const auto low = [&] { run->low = build(first, parts.size, parts.low, depth + 1); };
-        const auto high = [&] { run->high = build(first + parts.size, size - parts.size, parts.high, depth + 1); };
+        const auto low = [&](Room& r) { run->low = build(first, parts.size, parts.low, depth + 1, r); };
+        const auto high = [&](Room& r) {
+            run->high = build(first + parts.size, size - parts.size, parts.high, depth + 1, r);
+        };
         if (size >= task_size) {
-            tbb::parallel_invoke(low, high);
+            fork_.both([&] { low(room()); }, [&] { high(runs); });
         } else {
-            low();
-            high();
+            low(runs);
+            high(runs);
         }
         collapse(*run, unit_);
         return run;
@@ -100,7 +109,9 @@ private:
 
     std::span<BuildSphere> spheres_;
     double unit_ = 0;  ///< costs are in areas of the whole
-    tbb::enumerable_thread_specific<std::deque<Run>> runs_;
+    Fork fork_;
+    std::mutex mutex_;
+    std::list<Room> rooms_;
 };
 
 /// Children front to back for the rays of every octant, four bits each.
@@ -165,11 +176,11 @@ private:
 
 }  // namespace
 
-Tree build_tree(std::span<BuildSphere> spheres) {
+Tree build_tree(std::span<BuildSphere> spheres, unsigned threads) {
     if (spheres.size() >= (std::size_t{1} << 27)) throw std::length_error("more than 2^27 spheres");
     Tree tree;
     if (spheres.empty()) return tree;
-    BinaryBuilder binary(spheres);
+    BinaryBuilder binary(spheres, threads);
     const Run* const root = binary.build();
     WideBuilder(tree.nodes).build(root);
     for (std::size_t axis = 0; axis < 3; ++axis)

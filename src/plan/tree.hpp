@@ -27,7 +27,7 @@ struct Tree {
 inline constexpr std::size_t tree_crossover = 64;
 
 /// Builds the tree over `spheres` and puts them into its order: a sphere's place is the id the kernels give. Fewer than
-/// 2^27 of them, finite, radii >= 0. All cores TBB grants; the same tree for any number of them.
-Tree build_tree(std::span<BuildSphere> spheres);
+/// 2^27 of them, finite, radii >= 0. On so many threads, 0 being one per processor; the same tree for any number.
+Tree build_tree(std::span<BuildSphere> spheres, unsigned threads = 0);
 
 }  // namespace orrery

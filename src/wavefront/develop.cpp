@@ -1,7 +1,5 @@
 #include "wavefront/develop.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <vector>
 
 namespace orrery {
@@ -19,26 +17,31 @@ PixelEstimate estimate(const Film& film, Integrator integrator, std::size_t pixe
     return {{v, v, v}, {variance, variance, variance}, {skew, skew, skew}, mean.degrees, mean.blocks};
 }
 
-}  // namespace
-
-Image develop(const Film& film, Integrator integrator) {
-    Image image = film.mean();
-    if (integrator == Integrator::depth) {
-        for (Rgb& p : image.pixels) {
-            const float v = inverted(p.r);
-            p = {v, v, v};
-        }
-    }
+/// An image whose pixels `value` gives.
+template <class Value>
+Image image_of(const Film& film, const Developing& how, Value value) {
+    Image image{film.width(), film.height(), std::vector<Rgb>(film.pixels())};
+    how.team.each(film.height(), [&](std::size_t y, unsigned) {
+        how.cancellation.check();
+        const std::size_t end = (y + 1) * film.width();
+        for (std::size_t i = y * film.width(); i < end; ++i) image.pixels[i] = value(i);
+    });
     return image;
 }
 
-Image develop_error(const Film& film, Integrator integrator) {
-    Image image{film.width(), film.height(), std::vector<Rgb>(film.pixels())};
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, film.pixels(), 4096), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i)
-            image.pixels[i] = standard_error(estimate(film, integrator, i));
+}  // namespace
+
+Image develop(const Film& film, Integrator integrator, const Developing& how) {
+    return image_of(film, how, [&](std::size_t pixel) {
+        const Rgb mean = film.mean(pixel);
+        if (integrator != Integrator::depth) return mean;
+        const float v = inverted(mean.r);
+        return Rgb{v, v, v};
     });
-    return image;
+}
+
+Image develop_error(const Film& film, Integrator integrator, const Developing& how) {
+    return image_of(film, how, [&](std::size_t pixel) { return standard_error(estimate(film, integrator, pixel)); });
 }
 
 ErrorSums error_of_tile(const Film& film, Integrator integrator, const Image& image, const Image& errors,
@@ -55,10 +58,13 @@ ErrorSums error_of_tile(const Film& film, Integrator integrator, const Image& im
     return sums;
 }
 
-ImageError estimate_error(const Film& film, Integrator integrator, const Image& image, const Image& errors) {
+ImageError estimate_error(const Film& film, Integrator integrator, const Image& image, const Image& errors,
+                          const Developing& how) {
     std::vector<ErrorSums> rows(image.height);
-    tbb::parallel_for(std::uint32_t{0}, image.height, [&](std::uint32_t y) {
-        rows[y] = error_of_tile(film, integrator, image, errors, {0, y, image.width, y + 1});
+    how.team.each(image.height, [&](std::size_t row, unsigned) {
+        how.cancellation.check();
+        const auto y = static_cast<std::uint32_t>(row);
+        rows[row] = error_of_tile(film, integrator, image, errors, {0, y, image.width, y + 1});
     });
     ErrorSums all;
     for (const ErrorSums& row : rows) all.add(row);

@@ -3,21 +3,30 @@
 
 #include "film/error.hpp"
 #include "scene/scene.hpp"
+#include "system/threads.hpp"
 #include "wavefront/tile.hpp"
 
 namespace orrery {
 
-/// The pixels' means; those of DEPTH post-processed.
-Image develop(const Film& film, Integrator integrator);
+/// By whom, and whether still: all that look at every pixel throw what the cancellation throws. The same for any number
+/// of threads.
+struct Developing {
+    Team& team;
+    const Cancellation& cancellation;
+};
 
-/// Standard error of every pixel of that image; infinite where nothing tells. By the threads of the present arena.
-Image develop_error(const Film& film, Integrator integrator);
+/// The pixels' means; those of DEPTH post-processed.
+Image develop(const Film& film, Integrator integrator, const Developing& how);
+
+/// Standard error of every pixel of that image; infinite where nothing tells.
+Image develop_error(const Film& film, Integrator integrator, const Developing& how);
 
 /// Error of a part of that image, pixel after pixel; `errors` are its pixels' standard errors.
 ErrorSums error_of_tile(const Film& film, Integrator integrator, const Image& image, const Image& errors,
                         const Tile& tile);
 
-/// Error of all of it, by the threads of the present arena and the same for any number of them.
-ImageError estimate_error(const Film& film, Integrator integrator, const Image& image, const Image& errors);
+/// Error of all of it.
+ImageError estimate_error(const Film& film, Integrator integrator, const Image& image, const Image& errors,
+                          const Developing& how);
 
 }  // namespace orrery

@@ -146,6 +146,7 @@ void connect(Wave<Real>& w, const Runs& runs, std::uint32_t bounce) {
         const auto strategy = static_cast<std::size_t>(light_strategy(w));
         const auto aim = [&](auto stage, const auto& light, std::uint32_t target) {
             std::uint32_t rays = 0;
+            w.proceed(run.count);
             {
                 const StageTimer timer(w.counters, Stage::shade, bounce, {run.count, bytes, w.stages.step, true});
                 rays = stage(context, light, run, s.rays, s.lobes, s.shadows);
@@ -198,6 +199,7 @@ void trace_paths(Wave<Real>& w) {
 
     std::uint32_t rays = generate(w);
     for (std::uint32_t bounce = 0; rays > 0; ++bounce) {
+        w.proceed(rays);
         intersect(w, rays, bounce);
         gather_emission(w, rays, bounce);
         if (bounce == depth) break;
@@ -222,6 +224,7 @@ void trace_whitted(Wave<Real>& w) {
     std::uint32_t rays = generate(w);
     for (std::uint32_t slot = 0; slot < w.count; ++slot) s.slots.node[slot] = 1;
     for (std::uint32_t pass = 0; rays > 0; ++pass) {
+        w.proceed(rays);
         intersect(w, rays, pass);
         gather_emission(w, rays, pass);
         w.stages.expire(s.slots, w.plan.settings().depth, rays, s.rays);

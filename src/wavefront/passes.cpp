@@ -29,6 +29,8 @@ constexpr double tolerance = 1.2;
 constexpr double prior = 0.05;
 /// Share of the time that is worth starting another pass for.
 constexpr double worth_starting = 0.02;
+/// Share of the time left that a pass is planned to take: it is lost where it takes longer than what is left.
+constexpr double time_to_plan = 0.8;
 /// Sample numbers have 32 bits, and a pass at most doubles them.
 constexpr std::uint32_t most_samples_ever = 1u << 30;
 
@@ -125,7 +127,7 @@ double Passes::ceiling() const {
 /// What there is room for, over pixels: the ceiling or what the time left is enough for.
 double Passes::room(double elapsed) const {
     if (goal_.seconds <= 0 || count_ == 0) return ceiling();
-    return std::min(ceiling(), total_ + rate_ * (goal_.seconds - elapsed));
+    return std::min(ceiling(), total_ + rate_ * time_to_plan * (goal_.seconds - elapsed));
 }
 
 /// As much again as all before: few barriers and fine strata, and never far beyond what is needed. The first is the

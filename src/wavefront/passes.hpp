@@ -41,6 +41,7 @@ public:
 
     const ImageError& error() const { return error_; }
     StopReason reason() const { return reason_; }
+    void stop(StopReason reason) { reason_ = reason; }  ///< for a reason that only the caller knows
     /// Share of the work, in [0, 1], that is done before the present pass and with it, as far as can be told.
     double share_before() const { return share_before_; }
     double share_after() const { return share_after_; }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 #include "film/error.hpp"
@@ -13,13 +14,18 @@
 
 namespace orrery {
 
+/// Of a larger wave one stage would take tenths of a second, and hear nothing meanwhile.
+inline constexpr std::uint32_t largest_wave = 1u << 16;
+
 struct RenderOptions {
     unsigned threads = 0;         ///< 0: all cores this process may use
     Isa isa = best_isa();         ///< must be supported by this machine, else std::invalid_argument
-    std::uint32_t wave_size = 0;  ///< (pixel, sample) pairs per wave, 0: the measured default; changes no image
+    std::uint32_t wave_size = 0;  ///< (pixel, sample) pairs per wave, 0: the measured default, or at most largest_wave;
+                                  ///< changes no image
     /// Called now and then with the fraction done, in [0, 1]; from one thread at a time. May be empty.
     std::function<void(double fraction, std::uint64_t rays)> progress;
-    /// Polled between waves; true abandons the render, which then throws Interrupted. May be empty.
+    /// Asked every few milliseconds, by several threads at once; true abandons the render, which then throws
+    /// Interrupted. May be empty.
     std::function<bool()> interrupted;
     Goal goal = {};  ///< where it asks for something, samples are taken until that is there and not as the plan says
     /// Called between passes with the error so far, where there is a goal. May be empty.
@@ -29,9 +35,15 @@ struct RenderOptions {
 
 struct Interrupted {};
 
+/// A goal of time that is too short for any image.
+struct NothingInTime : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 struct RenderStats {
     Isa isa = Isa::sse2;  ///< the one that ran
     unsigned threads = 0;
+    unsigned refused_threads = 0;  ///< by the system: so many more were wanted
     std::uint32_t wave_size = 0;
     double samples_per_pixel = 0;  ///< really taken (stratified rounds down to a square), the mean over pixels
     std::uint32_t least_samples = 0, most_samples = 0;  ///< of any pixel
@@ -54,8 +66,9 @@ struct RenderResult {
 };
 
 /// Renders with the settings of the scene the plan was made from. Deterministic: the same plan and goal give the same
-/// bytes for any thread count and wave size, unless the goal is a time. Throws std::invalid_argument on an unsupported
-/// ISA, Interrupted as asked.
+/// bytes for any thread count and wave size, unless the goal is a time. A pass that has not ended when the time is up
+/// is dropped as a whole: its slow tiles alone would be the bright ones. Throws std::invalid_argument on an unsupported
+/// ISA or too large a wave, Interrupted as asked, NothingInTime where not even the first pass ends in time.
 RenderResult render(const Plan& plan, const RenderOptions& options);
 
 }  // namespace orrery

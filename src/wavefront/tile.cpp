@@ -1,5 +1,7 @@
 #include "wavefront/tile.hpp"
 
+#include <stdexcept>
+
 namespace orrery {
 
 namespace {
@@ -27,6 +29,7 @@ void trace(Wave<Real>& wave) {
 template <class Real>
 void flush(Wave<Real>& wave) {
     if (wave.count == 0) return;
+    wave.cancellation.check();
     trace(wave);
     const auto& slots = wave.storage.slots;
     for (std::uint32_t s = 0; s < wave.count;) {
@@ -85,13 +88,14 @@ std::uint32_t Tile::pixels() const {
 }
 
 std::uint32_t choose_wave_size(const Plan& plan, std::uint32_t asked) {
-    std::uint32_t size = asked != 0 ? std::min(asked, 1u << 20) : default_wave_size;
+    if (asked > largest_wave) throw std::invalid_argument("too large a wave");
+    std::uint32_t size = asked != 0 ? asked : default_wave_size;
     while (asked == 0 && size > kernels::widest && queue_bytes(plan, size) > queue_limit) size /= 2;
     return size;
 }
 
 template <class Real>
-bool render_tile(Wave<Real>& wave, const Task& task, const std::function<bool()>& interrupted) {
+void render_tile(Wave<Real>& wave, const Task& task) {
     const auto& [tile, pattern] = task;
     const RenderSettings& settings = wave.plan.settings();
     wave.camera = wave.tables.camera;
@@ -102,20 +106,15 @@ bool render_tile(Wave<Real>& wave, const Task& task, const std::function<bool()>
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
             if (!tile.has(x, y)) continue;
             for (std::uint32_t sample = 0; sample < pattern.samples();) {
-                if (wave.count == wave.storage.slot_count) {
-                    if (interrupted && interrupted()) return false;
-                    flush(wave);
-                }
+                if (wave.count == wave.storage.slot_count) flush(wave);
                 sample = fill(wave, x, y, pattern, sample);
             }
         }
     }
-    if (interrupted && interrupted()) return false;
     flush(wave);
-    return true;
 }
 
-template bool render_tile(Wave<float>&, const Task&, const std::function<bool()>&);
-template bool render_tile(Wave<double>&, const Task&, const std::function<bool()>&);
+template void render_tile(Wave<float>&, const Task&);
+template void render_tile(Wave<double>&, const Task&);
 
 }  // namespace orrery

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 
 #include "wavefront/pattern.hpp"
 #include "wavefront/wave.hpp"
@@ -54,9 +53,9 @@ inline std::uint32_t tile_side(std::uint32_t samples) { return samples >= 8 ? 16
 /// (pixel, sample) pairs of a wave: what was asked for, or with 0 what was measured to be best for the plan's queues.
 std::uint32_t choose_wave_size(const Plan& plan, std::uint32_t asked);
 
-/// The samples of a task onto the wave's film, a wave at a time. `interrupted` is polled between
-/// waves and may be empty. Returns false when interrupted.
+/// The samples of a task onto the wave's film, a wave at a time. Throws what the wave's Cancellation throws; the film
+/// then holds a part of them, and the wave is of no more use.
 template <class Real>
-bool render_tile(Wave<Real>& wave, const Task& task, const std::function<bool()>& interrupted);
+void render_tile(Wave<Real>& wave, const Task& task);
 
 }  // namespace orrery

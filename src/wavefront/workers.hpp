@@ -1,12 +1,11 @@
 // The threads of a render, each with its wave.
 #pragma once
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
+#include <memory>
 #include <span>
+#include <vector>
 
+#include "system/threads.hpp"
 #include "wavefront/progress.hpp"
 #include "wavefront/tile.hpp"
 
@@ -15,32 +14,32 @@ namespace orrery {
 template <class Real>
 class Workers {
 public:
-    /// Throws std::invalid_argument where this machine does not run the ISA asked for.
-    Workers(const Plan& plan, const RenderOptions& options, Film& film);
+    /// Throws std::invalid_argument where this machine does not run the ISA asked for, or waves are too large.
+    Workers(const Plan& plan, const RenderOptions& options, Film& film, const Cancellation& cancellation);
 
-    /// All tasks, no two of which may share a pixel, in any order. Throws Interrupted.
+    /// All tasks, no two of which may share a pixel, in any order. Throws what the cancellation throws.
     void run(std::span<const Task> tasks, Progress& progress);
 
-    /// Whatever else these threads should do.
-    template <class Work>
-    void execute(Work work) {
-        arena_.execute(work);
-    }
+    /// For whatever else these threads should do.
+    Team& team() { return team_; }
+
+    std::uint64_t dropped_samples() const;
 
     /// What the threads are, what they counted, and the time since they came.
     void report(RenderStats& stats) const;
 
 private:
+    Wave<Real>& wave_of(unsigned member);
+
     const Plan& plan_;
-    const RenderOptions& options_;
     const kernels::Stages<Real>& stages_;
-    unsigned threads_;
+    Film& film_;
+    const Cancellation& cancellation_;
     std::uint32_t wave_size_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::uint64_t first_tick_;
-    tbb::global_control limit_;
-    tbb::task_arena arena_;
-    tbb::enumerable_thread_specific<Wave<Real>> waves_;
+    Team team_;
+    std::vector<std::unique_ptr<Wave<Real>>> waves_;  ///< by member; null until it has work
 };
 
 extern template class Workers<float>;

@@ -5,16 +5,20 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 #include "program.hpp"
 #include "pseudo_terminal.hpp"
+#include "world.hpp"
 
 namespace orrery::test {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
+using ::testing::HasSubstr;
 
 class Interruption : public ::testing::TestWithParam<int> {};
 
@@ -33,7 +37,8 @@ TEST_P(Interruption, InMidRenderLeavesThePreviousImageAndNothingElse) {
     EXPECT_EQ(outcome.output, "");
     EXPECT_EQ(load(folder / "x.png"), "previous");
     EXPECT_THAT(folder.names(), ElementsAre("x.png"));
-    EXPECT_THAT(terminal.shown(), EndsWith(" \r")) << "the bar is gone";
+    EXPECT_THAT(terminal.shown(), EndsWith(" \rorrery: interrupted: the render is lost, no image was written\r\n"))
+        << "the bar is gone";
 }
 
 TEST_P(Interruption, WhileReadingTheSceneEndsAtOnce) {
@@ -46,6 +51,44 @@ TEST_P(Interruption, WhileReadingTheSceneEndsAtOnce) {
     EXPECT_EQ(program.wait().exit_code, 128 + GetParam());
     ::close(writer);
     EXPECT_THAT(folder.names(), ElementsAre("scene.json"));
+}
+
+/// A path that never ends, in a white room around a single pixel.
+nlohmann::json endless_path() {
+    auto world = small_world();
+    world["materials"][0]["rho"] = {1, 1, 1};
+    world["cameras"][0]["position"] = {0, 0, -0.5};
+    world["scene"]["renderer"] = {{"type", "PT"}, {"dimensions", {1, 1}}, {"samples", 1}, {"depth", 4294967295u}};
+    return world;
+}
+
+/// Waits until a program that gave us no sign is at work.
+void let_it_begin() { std::this_thread::sleep_for(std::chrono::milliseconds(300)); }
+
+TEST_P(Interruption, WithinAPathThatNeverEnds) {
+    const TemporaryFolder folder;
+    store(folder / "scene.json", to_bytes(endless_path().dump()));
+    Program program({"render", "scene.json", "-o", "x.png"}, {.folder = folder.path()});
+    let_it_begin();
+    const auto sent = std::chrono::steady_clock::now();
+    program.send(GetParam());
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.exit_code, 128 + GetParam());
+    EXPECT_EQ(outcome.error, "orrery: interrupted: the render is lost, no image was written\n");
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(1)) << "0.1 s, and a busy machine";
+    EXPECT_THAT(folder.names(), ElementsAre("scene.json"));
+}
+
+TEST_P(Interruption, StaysIgnoredWhereItWas) {
+    const TemporaryFolder folder;
+    store(folder / "scene.json", to_bytes(endless_path().dump()));
+    Program program({"render", "scene.json", "-o", "x.png", "--time", "600ms"},
+                    {.folder = folder.path(), .ignored_signal = GetParam()});
+    let_it_begin();
+    program.send(GetParam());
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.exit_code, 1) << "ended by its time";
+    EXPECT_THAT(outcome.error, HasSubstr("time"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, Interruption, ::testing::Values(SIGINT, SIGTERM, SIGHUP));

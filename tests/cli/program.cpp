@@ -38,6 +38,8 @@ void set_variable(const char* name, const std::string& value) {
 /// In the child: becomes the program.
 [[noreturn]] void become(const std::vector<std::string>& arguments, const Surroundings& surroundings,
                          const std::filesystem::path& output, const std::filesystem::path& error) {
+    // Before it may become another user's, who need not see the folder it is in.
+    const int program = ::open(ORRERY_PROGRAM, O_RDONLY | O_CLOEXEC);
     // Also where the test itself is killed, by ctest's time limit say.
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::close(STDIN_FILENO);
@@ -53,11 +55,17 @@ void set_variable(const char* name, const std::string& value) {
     set_variable("ORRERY_COMMAND", surroundings.typed);
     limit(RLIMIT_FSIZE, surroundings.largest_file);
     limit(RLIMIT_AS, surroundings.address_space);
+    if (surroundings.ignored_signal != 0) ::signal(surroundings.ignored_signal, SIG_IGN);
+    if (surroundings.tasks) {
+        constexpr uid_t nobody = 65534;  // root's tasks are not counted
+        if (::geteuid() == 0 && ::setuid(nobody) != 0) ::_exit(126);
+        limit(RLIMIT_NPROC, surroundings.tasks);
+    }
 
     std::vector<char*> argv = {const_cast<char*>("orrery")};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    ::execv(ORRERY_PROGRAM, argv.data());
+    ::fexecve(program, argv.data(), environ);
     ::_exit(127);
 }
 

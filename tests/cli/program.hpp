@@ -28,6 +28,8 @@ struct Surroundings {
     int terminal = -1;                         ///< standard error is this descriptor; -1: Outcome::error
     std::string columns = {};                  ///< the environment's COLUMNS; empty: none
     std::string typed = {};                    ///< the environment's ORRERY_COMMAND; empty: none
+    int ignored_signal = 0;                    ///< as under nohup; 0: none
+    std::optional<rlim_t> tasks = {};  ///< threads and processes of the user the program runs as, nobody for root
 };
 
 /// `orrery` with these arguments, running. Killed with its owner: no test leaves a process behind.

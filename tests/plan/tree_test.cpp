@@ -3,7 +3,6 @@
 #include "plan/tree.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
@@ -128,7 +127,8 @@ private:
 struct Grown {
     std::vector<BuildSphere> spheres;
     Tree tree;
-    explicit Grown(const std::vector<BuildSphere>& given) : spheres(given), tree(build_tree(spheres)) {
+    explicit Grown(const std::vector<BuildSphere>& given, unsigned threads = 0)
+        : spheres(given), tree(build_tree(spheres, threads)) {
         std::vector<bool> seen(given.size());
         for (const BuildSphere& s : spheres) {
             EXPECT_FALSE(seen.at(s.index));
@@ -196,10 +196,7 @@ TEST(Tree, IsCompact) {
 
 TEST(Tree, IsTheSameForAnyNumberOfThreads) {
     const auto given = random_spheres(30000);
-    const auto grow = [&](std::size_t threads) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        return Grown(given);
-    };
+    const auto grow = [&](unsigned threads) { return Grown(given, threads); };
     const Grown one = grow(1), two = grow(2), many = grow(7);
     for (const Grown* other : {&two, &many}) {
         ASSERT_EQ(one.tree.nodes.size(), other->tree.nodes.size());

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <limits>
 #include <stdexcept>
+#include <thread>
 
 #include "wavefront/scenes.hpp"
 
@@ -39,6 +42,99 @@ TEST(Interrupted, AbandonsTheRestOfTheWork) {
     const auto progress = [&](double, std::uint64_t rays) { done = rays; };
     EXPECT_THROW(render(scene, {.progress = progress, .interrupted = [] { return true; }}), Interrupted);
     EXPECT_LT(done, whole / 2);
+}
+
+/// A white room around one pixel: a path never ends.
+Scene endless() {
+    Scene scene = picture({0, 0, 0}, {0, 0, 1}, 45, 1);
+    add_sphere(scene, {0, 0, 0}, 1, diffuse(dvec3{1}));
+    add_point_light(scene, {0, 0.5, 0}, dvec3{1});
+    scene.settings.width = scene.settings.height = 1;
+    scene.settings.depth = std::numeric_limits<std::uint32_t>::max();
+    return scene;
+}
+
+/// A bounce of these takes minutes: every vertex aims at every lamp.
+Scene many_lights() {
+    Scene scene = picture({0, 1, -4}, {0, 0, 0}, 40, 64);
+    add_sphere(scene, {0, -50, 0}, 50, diffuse(dvec3{0.8}));
+    for (int i = 0; i < 1'000'000; ++i) add_point_light(scene, {0.001 * i, 5, 0}, dvec3{1});
+    return scene;
+}
+
+/// Glass within glass: either branch of every ray meets glass again.
+Scene branching() {
+    Scene scene = picture({0, 0, 0}, {0, 0, 1}, 45, 1);
+    add_sphere(scene, {0, 0, 0}, 1, glass(1, 1.5));
+    add_sphere(scene, {0, 0, 0}, 5, glass(1, 0.7));
+    scene.background = {1, 1, 1};
+    scene.settings.integrator = Integrator::whitted;
+    scene.settings.depth = 20;
+    scene.settings.width = scene.settings.height = 64;
+    return scene;
+}
+
+std::vector<Scene> slow_scenes() {
+    Scene whitted = many_lights();
+    whitted.settings.integrator = Integrator::whitted;
+    return {endless(), many_lights(), std::move(whitted), branching()};
+}
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Far beyond a tenth of a second, so that a busy machine passes, and far below what is abandoned.
+constexpr double soon = 1;
+
+TEST(Interrupted, IsHeardWithinAPathAndAmongManyLights) {
+    for (Scene scene : slow_scenes()) {
+        const Plan plan(std::move(scene));
+        const auto start = Clock::now();
+        RenderOptions options;
+        options.interrupted = [&] { return seconds_since(start) > 0.05; };
+        EXPECT_THROW(orrery::render(plan, options), Interrupted);
+        EXPECT_LT(seconds_since(start), soon);
+    }
+}
+
+TEST(TimeUp, IsHeardWithinAPathAndAmongManyLights) {
+    for (Scene scene : slow_scenes()) {
+        const Plan plan(std::move(scene));
+        const auto start = Clock::now();
+        RenderOptions options;
+        options.goal = {.seconds = 0.05};
+        EXPECT_THROW(orrery::render(plan, options), NothingInTime);
+        EXPECT_LT(seconds_since(start), soon);
+    }
+}
+
+// The third pass does not end in time; of its tiles some were done.
+TEST(TimeUp, LeavesThePassesThatEndedAndNothingOfTheOther) {
+    Scene scene = everything();
+    scene.settings.width = scene.settings.height = 64;
+    scene.settings.estimator = Estimator::uniform;
+    std::atomic<int> passes = 0, tiles = 0;
+    RenderOptions options;
+    options.goal = {.seconds = 1, .adaptive = false};
+    options.pass_done = [&](const ImageError&) { ++passes; };
+    options.interrupted = [&] {
+        if (passes == 2 && ++tiles == 10) std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+        return false;
+    };
+    const RenderResult result = orrery::render(Plan(scene), options);
+    EXPECT_EQ(result.stats.stopped_by, StopReason::time);
+    EXPECT_EQ(result.stats.passes, 2u);
+    EXPECT_EQ(result.stats.samples_per_pixel, result.stats.most_samples);
+    scene.settings.samples = result.stats.most_samples;
+    const RenderResult expected = render(scene);
+    EXPECT_EQ(result.image.pixels, expected.image.pixels);
+    EXPECT_GT(tiles, 9) << "there was nothing to drop";
+    EXPECT_LT(result.stats.seconds, 2);
+}
+
+TEST(WaveSize, IsAtMostWhatHearsASignal) {
+    EXPECT_NO_THROW(render(everything(), {.wave_size = largest_wave}));
+    EXPECT_THROW(render(everything(), {.wave_size = largest_wave + 1}), std::invalid_argument);
 }
 
 TEST(Progress, EndsAtOneWithAllRays) {
