@@ -14,8 +14,8 @@
 #include "cli/option.hpp"
 #include "cli/values.hpp"
 #include "cli/version.hpp"
-#include "scene/printable.hpp"
 #include "scene/spelling.hpp"
+#include "system/printable.hpp"
 #include "wavefront/render.hpp"
 
 namespace orrery {
@@ -207,7 +207,7 @@ Answer failure(const CLI::App& app, const CLI::ParseError& error) {
     // CLI11 says that a subcommand is required, not which there are.
     if (fault.empty() && chosen.empty() && error.get_name() == "RequiredError")
         fault = "expected a command, render, info, generate or compare";
-    if (fault.empty()) fault = error.what();
+    if (fault.empty()) fault = printable_whole(error.what());
     const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
     return {exit_code::misused, "",
             fmt::format("orrery: error: {}\nTry: {}{} --help\n", fault, typed_command(), command)};

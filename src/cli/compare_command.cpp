@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <span>
 
 #include "cli/commands.hpp"
@@ -10,6 +11,7 @@
 #include "cli/version.hpp"
 #include "image/atomic_file.hpp"
 #include "image/image_file.hpp"
+#include "system/memory.hpp"
 
 namespace orrery {
 namespace {
@@ -29,12 +31,31 @@ void check_outputs(const ComparisonRequest& request) {
     }
     if (request.json && !to_standard_output(request.json)) written.emplace_back(*request.json);
     require_different_files(read, written);
-    for (const fs::path& file : written) static_cast<void>(writable_target(file));
+    for (const fs::path& file : written) AtomicFile{file};
 }
 
-std::optional<Image> read_if(const std::optional<fs::path>& file) {
-    return file ? std::optional(read_image(*file)) : std::nullopt;
-}
+/// Reads images as long as there is memory for them.
+class Reader {
+public:
+    Image read(const fs::path& file) {
+        Image image = read_image(file, left_);
+        left_ -= std::min<std::uint64_t>(left_, image.pixels.size() * sizeof(Rgb));
+        return image;
+    }
+    std::optional<Image> read_if(const std::optional<fs::path>& file) {
+        return file ? std::optional(read(*file)) : std::nullopt;
+    }
+    /// Throws std::runtime_error where what is left is not enough to compare so many pixels.
+    void require_room_for(std::uint64_t pixels) const {
+        if (pixels <= left_ / comparison_bytes_per_pixel) return;
+        throw std::runtime_error(fmt::format("comparing {} pixels takes {:.1f} GB, and {:.1f} GB of memory are left",
+                                             pixels, static_cast<double>(pixels * comparison_bytes_per_pixel) / 1e9,
+                                             static_cast<double>(left_) / 1e9));
+    }
+
+private:
+    std::uint64_t left_ = memory_limit();
+};
 
 void require_size_of(const Image& a, const ComparisonRequest& request, const Image& other, const fs::path& file) {
     if (other.width == a.width && other.height == a.height) return;
@@ -78,11 +99,13 @@ bool exceeds_limits(const Comparison& c, const ComparisonRequest& request) {
 int compare_command(const Arguments& arguments) {
     const ComparisonRequest& request = arguments.comparison;
     check_outputs(request);
-    const Image a = read_image(request.a), b = read_image(request.b);
-    const std::optional<Image> error_a = read_if(request.error_a), error_b = read_if(request.error_b);
+    Reader reader;
+    const Image a = reader.read(request.a), b = reader.read(request.b);
+    const std::optional<Image> error_a = reader.read_if(request.error_a), error_b = reader.read_if(request.error_b);
     require_size_of(a, request, b, request.b);
     if (error_a) require_size_of(a, request, *error_a, *request.error_a);
     if (error_b) require_size_of(a, request, *error_b, *request.error_b);
+    reader.require_room_for(a.pixels.size());
 
     const Comparison comparison = compare(a, b, error_a ? &*error_a : nullptr, error_b ? &*error_b : nullptr);
     if (request.difference) write_difference(*request.difference, request, a, b, comparison);

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "cli/json_text.hpp"
+
 namespace orrery {
 namespace {
 
@@ -62,8 +64,7 @@ std::string comparison_lines(const Comparison& comparison) {
 std::string comparison_json(const Comparison& comparison, const ComparisonRequest& request) {
     Json json = {{"a", request.a.string()}, {"b", request.b.string()}};
     json.update(figures(comparison));
-    // A file name need not be UTF-8, JSON must be.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json);
 }
 
 }  // namespace orrery

@@ -21,7 +21,7 @@ int generate_command(const Arguments& arguments) {
     worlds::write_world(world, g.spheres, name,
                         [&](std::string_view text) { file.write(std::as_bytes(std::span(text))); });
     file.commit();
-    print_result(g.output->string() + "\n");
+    print_name(*g.output);
     return exit_code::done;
 }
 

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <vector>
 
-#include "scene/printable.hpp"
+#include "system/printable.hpp"
 
 namespace orrery {
 namespace {

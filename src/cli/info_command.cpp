@@ -10,6 +10,7 @@
 #include "plan/plan.hpp"
 #include "scene/counted.hpp"
 #include "scene/image_memory.hpp"
+#include "system/printable.hpp"
 #include "wavefront/wave_storage.hpp"
 
 namespace orrery {
@@ -68,7 +69,7 @@ int info_command(const Arguments& arguments) {
 
     std::string text;
     const auto row = [&](std::string_view name, std::string_view value) {
-        fmt::format_to(std::back_inserter(text), "{:<10} {}\n", name, value);
+        fmt::format_to(std::back_inserter(text), "{:<10} {}\n", name, printable_whole(value));
     };
     row("scene", plan.scene().file.string());
     row("image", fmt::format("{} x {} pixels, tone mapper {}", settings.width, settings.height,
@@ -85,7 +86,7 @@ int info_command(const Arguments& arguments) {
     text += "\nplan\n";
     for (const Decision& decision : plan.decisions()) {
         fmt::format_to(std::back_inserter(text), "  {:<8} {:<26} {}\n", decision.runs ? "runs" : "left out",
-                       decision.part, decision.reason);
+                       decision.part, printable_whole(decision.reason));
     }
     print_result(text);
     return exit_code::done;

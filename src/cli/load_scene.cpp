@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <new>
+#include <stdexcept>
+
 #include "cli/commands.hpp"
 #include "cli/late_notice.hpp"
 #include "cli/standard_streams.hpp"
@@ -12,7 +15,11 @@ namespace {
 
 ReadResult read_visibly(const Arguments& arguments) {
     const LateNotice notice(!arguments.quiet, fmt::format("reading {} ...", arguments.scene.filename().string()));
-    return read_scene(arguments.scene);
+    try {
+        return read_scene(arguments.scene);
+    } catch (const std::bad_alloc&) {
+        throw std::runtime_error(fmt::format("{}: out of memory while reading this scene", arguments.scene.string()));
+    }
 }
 
 }  // namespace
@@ -21,7 +28,7 @@ std::optional<Scene> load_scene(const Arguments& arguments) {
     ReadResult result = read_visibly(arguments);
     for (const Diagnostic& diagnostic : result.diagnostics) {
         if (diagnostic.severity == Severity::warning && arguments.quiet) continue;
-        print_message(format_diagnostic(arguments.scene.string(), diagnostic) + "\n");
+        print_line(format_diagnostic(arguments.scene.string(), diagnostic));
     }
     if (result.scene) apply(arguments.overrides, result.scene->settings);
     return std::move(result.scene);

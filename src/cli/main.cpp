@@ -5,6 +5,7 @@
 #include "cli/exit_code.hpp"
 #include "cli/signals.hpp"
 #include "cli/standard_streams.hpp"
+#include "system/memory.hpp"
 
 namespace orrery {
 namespace {
@@ -37,6 +38,7 @@ int main(int argc, char** argv) {
     using namespace orrery;
     occupy_standard_descriptors();
     install_signal_handlers();
+    keep_within_memory();
     try {
         return run(argc, argv);
     } catch (const UsageError& error) {

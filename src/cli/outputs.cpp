@@ -1,6 +1,8 @@
 #include "cli/outputs.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <set>
 
@@ -27,6 +29,16 @@ void require_linear(const fs::path& file) {
     throw UsageError(fmt::format("--error-image: found {}, expected a file ending in .pfm or .exr", file.string()));
 }
 
+/// Whether standard output or error goes to this very file: it would be another one after a rename, and what is
+/// printed later would be lost.
+bool is_standard_stream(const fs::path& file) {
+    struct stat named = {}, open = {};
+    if (::stat(file.c_str(), &named) != 0) return false;
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+        if (::fstat(stream, &open) == 0 && open.st_dev == named.st_dev && open.st_ino == named.st_ino) return true;
+    return false;
+}
+
 }  // namespace
 
 void require_known_ending(const fs::path& file, const std::string& option) {
@@ -40,9 +52,13 @@ void require_known_ending(const fs::path& file, const std::string& option) {
 void require_different_files(const std::vector<fs::path>& read, const std::vector<fs::path>& written) {
     std::set<fs::path> taken;
     for (const fs::path& file : read) taken.insert(identity(file));
-    for (const fs::path& file : written)
+    for (const fs::path& file : written) {
         if (!taken.insert(identity(file)).second)
             throw UsageError(fmt::format("{}: this file is named twice, expected different files", file.string()));
+        if (is_standard_stream(file))
+            throw UsageError(
+                fmt::format("{}: standard output or error goes to this file, expected another one", file.string()));
+    }
 }
 
 Outputs choose_outputs(const Arguments& arguments, const Scene& scene) {
@@ -75,14 +91,17 @@ Outputs choose_outputs(const Arguments& arguments, const Scene& scene) {
 }
 
 void require_writable(const Outputs& outputs, const Scene& scene) {
+    const auto require_image = [&](const fs::path& image) {
+        AtomicFile(image, least_file_size(image_format(image), scene.settings.width, scene.settings.height));
+    };
     for (const fs::path& image : outputs.images) {
-        // A failure is left to writable_target, which says more about it.
+        // A failure is left to AtomicFile, which says more about it.
         std::error_code error;
         if (image == scene.settings.output && image.has_parent_path()) fs::create_directory(image.parent_path(), error);
-        static_cast<void>(writable_target(image));
+        require_image(image);
     }
-    if (outputs.error_image) static_cast<void>(writable_target(*outputs.error_image));
-    if (outputs.stats) static_cast<void>(writable_target(*outputs.stats));
+    if (outputs.error_image) require_image(*outputs.error_image);
+    if (outputs.stats) AtomicFile{*outputs.stats};
 }
 
 }  // namespace orrery

@@ -22,7 +22,8 @@ struct Outputs {
 /// ending is unknown or does not fit, or a file is named twice (as the scene, say). Touches nothing.
 Outputs choose_outputs(const Arguments& arguments, const Scene& scene);
 
-/// Throws UsageError where two of `written` are one file, under whatever names, or one of them is also `read`.
+/// Throws UsageError where two of `written` are one file, under whatever names, or one of them is also `read` or what
+/// standard output or error goes to.
 void require_different_files(const std::vector<std::filesystem::path>& read,
                              const std::vector<std::filesystem::path>& written);
 

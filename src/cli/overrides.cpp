@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "cli/exit_code.hpp"
 #include "scene/image_memory.hpp"
+#include "system/memory.hpp"
 
 namespace orrery {
 namespace {
@@ -43,9 +42,8 @@ void apply(const Overrides& overrides, RenderSettings& settings) {
                                      overrides.depth ? "--depth" : "the scene's depth", settings.depth,
                                      deepest_whitted));
     }
-    const auto fault = too_many_pixels(settings.width, settings.height,
-                                       physical_memory().value_or(std::numeric_limits<std::uint64_t>::max()));
-    if (fault) throw UsageError("--size: " + *fault);
+    if (const auto fault = too_many_pixels(settings.width, settings.height, memory_limit()))
+        throw UsageError("--size: " + *fault);
 }
 
 ToneMap tone_mapper(const RenderSettings& settings) {

@@ -17,6 +17,8 @@
 #include "cli/summary.hpp"
 #include "image/atomic_file.hpp"
 #include "scene/counted.hpp"
+#include "scene/image_memory.hpp"
+#include "system/memory.hpp"
 
 namespace orrery {
 namespace {
@@ -67,6 +69,20 @@ std::vector<fs::path> write_images(const std::vector<fs::path>& files, const Pla
     return written;
 }
 
+/// The images, and that of the errors. Returns the files that were written.
+std::vector<fs::path> write_all(const Outputs& outputs, const Plan& plan, const RenderResult& result,
+                                const Goal& goal) {
+    const Loss loss("orrery: interrupted: images that were not written yet are lost\n");
+    Making making{.goal = goal, .samples = result.stats.samples_per_pixel};
+    std::vector<fs::path> written = write_images(outputs.images, plan, result.image, making);
+    if (outputs.error_image) {
+        making.content = "standard error";
+        std::ranges::copy(write_images({*outputs.error_image}, plan, result.standard_error, making),
+                          std::back_inserter(written));
+    }
+    return written;
+}
+
 void warn_of_precision(const Plan& plan) {
     const Precision precision = plan.settings().precision;
     if (const auto coarse = coarse_positions(plan.scene(), precision)) {
@@ -92,6 +108,11 @@ int render_command(const Arguments& arguments) {
     std::optional<Scene> scene = load_scene(arguments);
     if (!scene) return exit_code::misused;
     const Goal goal = goal_of(arguments);
+    if (goal.seconds > 0) {
+        const auto fault =
+            too_many_pixels(scene->settings.width, scene->settings.height, memory_limit(), timed_bytes_per_pixel);
+        if (fault) throw UsageError("--time: " + *fault);
+    }
     const Outputs outputs = choose_outputs(arguments, *scene);
     require_writable(outputs, *scene);
 
@@ -102,18 +123,10 @@ int render_command(const Arguments& arguments) {
     }
     const auto outcome = render_until_signal(plan, arguments, goal);
     if (const auto* stopped = std::get_if<Stopped>(&outcome)) return exit_code::ended_by(stopped->signal);
-    const Loss loss("orrery: interrupted: what was rendered and is not named above was not written and is lost\n");
-    const auto& [image, standard_error, stats] = std::get<RenderResult>(outcome);
+    const auto& result = std::get<RenderResult>(outcome);
+    const RenderStats& stats = result.stats;
 
-    Making making{.goal = goal, .samples = stats.samples_per_pixel};
-    std::vector<fs::path> written = write_images(outputs.images, plan, image, making);
-    std::size_t asked = outputs.images.size();
-    if (outputs.error_image) {
-        ++asked;
-        making.content = "standard error";
-        std::ranges::copy(write_images({*outputs.error_image}, plan, standard_error, making),
-                          std::back_inserter(written));
-    }
+    const std::vector<fs::path> written = write_all(outputs, plan, result, goal);
     if (!arguments.quiet) {
         print_message(summary(plan, goal, stats));
         if (stats.dropped_samples > 0)
@@ -125,8 +138,9 @@ int render_command(const Arguments& arguments) {
     if (arguments.profile) print_message(profile_table(stats));
     // Where the statistics take standard output they name the images, and it stays one JSON document.
     if (!outputs.stats_to_standard_output)
-        for (const fs::path& file : written) print_result(file.string() + "\n");
+        for (const fs::path& file : written) print_name(file);
     write_stats(outputs, statistics_json(plan, goal, stats, written));
+    const std::size_t asked = outputs.images.size() + (outputs.error_image ? 1 : 0);
     return written.size() == asked ? exit_code::done : exit_code::failed;
 }
 

@@ -7,6 +7,9 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <string>
+
+#include "system/printable.hpp"
 
 namespace orrery {
 namespace {
@@ -34,9 +37,16 @@ void print_result(std::string_view text) {
         throw std::runtime_error(fmt::format("cannot write to standard output: {}", std::strerror(error)));
 }
 
-void print_error(std::string_view message) { print_message(fmt::format("orrery: error: {}\n", message)); }
+void print_name(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    print_result((::isatty(STDOUT_FILENO) != 0 ? printable_whole(name) : name) + "\n");
+}
 
-void print_warning(std::string_view message) { print_message(fmt::format("orrery: warning: {}\n", message)); }
+void print_error(std::string_view message) { print_line(fmt::format("orrery: error: {}", message)); }
+
+void print_warning(std::string_view message) { print_line(fmt::format("orrery: warning: {}", message)); }
+
+void print_line(std::string_view text) { print_message(printable_whole(text) + "\n"); }
 
 void print_message(std::string_view text) { write_all(STDERR_FILENO, text); }
 

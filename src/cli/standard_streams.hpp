@@ -1,6 +1,7 @@
 // Standard output carries what a script may read, standard error what a person may.
 #pragma once
 
+#include <filesystem>
 #include <string_view>
 
 namespace orrery {
@@ -12,11 +13,19 @@ void occupy_standard_descriptors();
 /// Writes all of it to standard output. Throws std::runtime_error where that fails: a full disk, a closed pipe.
 void print_result(std::string_view text);
 
-/// "orrery: error: ..." and "orrery: warning: ..." on standard error. Never fail: there is nowhere left to say so.
+/// The name of a file on a line of standard output: as it is for a script, and printable for a terminal.
+void print_name(const std::filesystem::path& file);
+
+// To standard error. None fails: there is nowhere left to say so.
+
+/// "orrery: error: ..." and "orrery: warning: ..." in a line, whatever the message quotes: what is not printable in it
+/// is escaped.
 void print_error(std::string_view message);
 void print_warning(std::string_view message);
+/// A line without such a beginning.
+void print_line(std::string_view text);
 
-/// Text as it is to standard error.
+/// As it is: of several lines, or one that moves on a terminal. What it quotes must have been made printable.
 void print_message(std::string_view text);
 
 }  // namespace orrery

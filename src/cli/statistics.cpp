@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cli/json_text.hpp"
 #include "cli/version.hpp"
 #include "cli/words.hpp"
 
@@ -102,8 +103,7 @@ std::string statistics_json(const Plan& plan, const Goal& goal, const RenderStat
         {"plan", decisions(plan)},
     };
     for (const auto& image : images) json["images"].push_back(image.string());
-    // A file name need not be UTF-8, JSON must be.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json);
 }
 
 }  // namespace orrery

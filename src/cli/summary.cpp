@@ -7,6 +7,7 @@
 #include "cli/progress.hpp"
 #include "cli/statistics.hpp"
 #include "scene/counted.hpp"
+#include "system/printable.hpp"
 
 namespace orrery {
 namespace {
@@ -46,10 +47,11 @@ std::string stop_text(const Goal& goal, StopReason reason) {
 
 std::string summary(const Plan& plan, const Goal& goal, const RenderStats& stats) {
     const RenderSettings& settings = plan.settings();
-    return fmt::format("{}: {} x {}, {} in {:.2f} s, {:.1f} Mrays/s ({}, {}){}{}\n", plan.scene().file.string(),
-                       settings.width, settings.height, samples_text(stats), stats.seconds,
-                       rays_per_second(stats) / 1e6, isa_name(stats.isa), counted(stats.threads, "thread"),
-                       error_text(stats.error.relative), stop_text(goal, stats.stopped_by));
+    return fmt::format("{}: {} x {}, {} in {:.2f} s, {:.1f} Mrays/s ({}, {}){}{}\n",
+                       printable_whole(plan.scene().file.string()), settings.width, settings.height,
+                       samples_text(stats), stats.seconds, rays_per_second(stats) / 1e6, isa_name(stats.isa),
+                       counted(stats.threads, "thread"), error_text(stats.error.relative),
+                       stop_text(goal, stats.stopped_by));
 }
 
 }  // namespace orrery

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "cli/exit_code.hpp"
-#include "scene/printable.hpp"
+#include "system/printable.hpp"
 
 namespace orrery {
 namespace {

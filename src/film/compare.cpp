@@ -43,6 +43,7 @@ public:
         : a_(a), b_(b), error_a_(error_a), error_b_(error_b) {}
 
     Comparison compare() {
+        errors_.reserve(3 * a_.pixels.size());
         Sums all;
         for (std::uint32_t y = 0; y < a_.height; ++y) {
             Sums row;

@@ -41,6 +41,9 @@ struct Comparison {
     std::uint64_t without_error = 0;           ///< pixels left out for a standard error that is negative or not finite
 };
 
+/// What comparing takes beside the images; their difference, and a file of it, take less.
+inline constexpr std::uint64_t comparison_bytes_per_pixel = 40;
+
 /// `error_a` and `error_b` hold the standard error of each channel of each pixel; null is an image without error. All
 /// images have to be of one size. Throws std::invalid_argument where they are not, or where no pixel takes part.
 Comparison compare(const Image& a, const Image& b, const Image* error_a = nullptr, const Image* error_b = nullptr);

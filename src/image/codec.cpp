@@ -26,11 +26,11 @@ Bytes encode_image(ImageFormat format, const Image& linear, ToneMap mapper, cons
     throw std::runtime_error("unknown image format");
 }
 
-Image decode_image(ByteView file) {
-    if (starts_with(file, "P6")) return decode_ppm(file);
-    if (starts_with(file, "PF") || starts_with(file, "Pf")) return decode_pfm(file);
-    if (starts_with(file, "\x89PNG")) return decode_png(file);
-    if (starts_with(file, "\x76\x2f\x31\x01")) return decode_exr(file);
+Image decode_image(ByteView file, std::uint64_t memory) {
+    if (starts_with(file, "P6")) return decode_ppm(file, memory);
+    if (starts_with(file, "PF") || starts_with(file, "Pf")) return decode_pfm(file, memory);
+    if (starts_with(file, "\x89PNG")) return decode_png(file, memory);
+    if (starts_with(file, "\x76\x2f\x31\x01")) return decode_exr(file, memory);
     throw std::runtime_error("not a PPM (P6), PNG, PFM or EXR file");
 }
 

@@ -13,4 +13,7 @@ inline constexpr std::uint64_t greatest_expansion = 1032;
 /// Throws std::runtime_error where `rows` of `row_bytes` cannot come out of a file of `file_bytes`.
 void check_unpacked_size(std::uint64_t row_bytes, std::uint64_t rows, std::size_t file_bytes);
 
+/// Throws std::runtime_error with the figures where `rows` of `row_bytes`, all that decoding takes, exceed `memory`.
+void check_memory(std::uint64_t row_bytes, std::uint64_t rows, std::uint64_t memory);
+
 }  // namespace orrery

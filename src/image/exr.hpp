@@ -12,7 +12,7 @@ namespace orrery {
 Bytes encode_exr(const Image& linear, const Metadata& metadata);
 
 /// The data window of a scan-line file with channels R, G and B, half or float. Tiled, deep and multi-part files are
-/// refused. Throws as encode_exr.
-Image decode_exr(ByteView file);
+/// refused. Throws as encode_exr, and as decode_image where memory is short.
+Image decode_exr(ByteView file, std::uint64_t memory = unlimited_memory);
 
 }  // namespace orrery

@@ -72,7 +72,7 @@ std::uint64_t rows_per_chunk(Imf::Compression compression) {
 }
 
 /// Refuses what is not the image we read, and sizes the file's length does not justify.
-void check_content(const Imf::Header& header, std::size_t file_bytes) {
+void check_content(const Imf::Header& header, std::size_t file_bytes, std::uint64_t memory) {
     if (header.hasType() && header.type() != Imf::SCANLINEIMAGE) throw std::runtime_error("not a scan-line image");
     for (const char* name : {"R", "G", "B"})
         if (header.channels().findChannel(name) == nullptr)
@@ -91,6 +91,10 @@ void check_content(const Imf::Header& header, std::size_t file_bytes) {
     constexpr std::uint64_t granted = std::uint64_t{64} << 20;
     if (row_bytes * rows_per_chunk(header.compression()) > granted)
         check_unpacked_size(row_bytes, rows_per_chunk(header.compression()), file_bytes);
+    // Twice a chunk, packed and not, beside the pixels.
+    const std::uint64_t chunks = 2 * row_bytes * rows_per_chunk(header.compression());
+    check_memory(sizeof(Rgb) * static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height),
+                 memory - std::min(chunks, memory));
 }
 
 Imf::Header read_header(MemoryInput& stream, ByteView file) {
@@ -105,10 +109,10 @@ Imf::Header read_header(MemoryInput& stream, ByteView file) {
 
 }  // namespace
 
-Image decode_exr(ByteView file) {
+Image decode_exr(ByteView file, std::uint64_t memory) {
     check_exr_header(file);
     MemoryInput stream(file);
-    check_content(read_header(stream, file), file.size());
+    check_content(read_header(stream, file), file.size(), memory);
     Imf::InputFile input(stream, 0);
 
     const auto& window = input.header().dataWindow();

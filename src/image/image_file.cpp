@@ -8,6 +8,7 @@
 
 #include "image/atomic_file.hpp"
 #include "image/codec.hpp"
+#include "image/decode_limits.hpp"
 #include "image/file_bytes.hpp"
 
 namespace orrery {
@@ -40,15 +41,30 @@ ImageFormat image_format(const std::filesystem::path& file) {
                     file.extension().string()));
 }
 
+std::uint64_t least_file_size(ImageFormat format, std::uint32_t width, std::uint32_t height) {
+    const std::uint64_t pixels = std::uint64_t{width} * height;
+    switch (format) {
+        case ImageFormat::ppm:
+            return 3 * pixels;
+        case ImageFormat::png:
+            return 3 * pixels / greatest_expansion;
+        case ImageFormat::pfm:
+            return 12 * pixels;
+        case ImageFormat::exr:
+            return 12 * pixels / greatest_expansion;
+    }
+    return 0;
+}
+
 void write_image(const std::filesystem::path& file, const Image& linear, ToneMap mapper, const Metadata& metadata) {
     const ImageFormat format = image_format(file);
     const Bytes bytes = naming(file, [&] { return encode_image(format, linear, mapper, metadata); });
     write_atomically(file, bytes);
 }
 
-Image read_image(const std::filesystem::path& file) {
-    const Bytes bytes = read_file(file);
-    return naming(file, [&] { return decode_image(bytes); });
+Image read_image(const std::filesystem::path& file, std::uint64_t memory) {
+    const Bytes bytes = read_file(file, memory);
+    return naming(file, [&] { return decode_image(bytes, memory - bytes.size()); });
 }
 
 }  // namespace orrery

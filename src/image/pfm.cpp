@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "image/decode_limits.hpp"
 #include "image/netpbm_header.hpp"
 
 namespace orrery {
@@ -52,7 +53,7 @@ Bytes encode_pfm(const Image& linear) {
     return file;
 }
 
-Image decode_pfm(ByteView file) {
+Image decode_pfm(ByteView file, std::uint64_t memory) {
     constexpr auto largest = std::numeric_limits<std::uint32_t>::max();
     NetpbmHeader header(file, NetpbmHeader::Comments::unknown);
     const std::string_view magic = header.word();
@@ -63,6 +64,7 @@ Image decode_pfm(ByteView file) {
     const std::endian order = byte_order(header.word());
     const std::uint64_t pixels = std::uint64_t{width} * height;
     ByteView samples = header.samples(pixels, 4 * channels);
+    check_memory(sizeof(Rgb) * std::uint64_t{width}, height, memory);
 
     const auto next = [&] {
         const float value = float_at(samples, order);

@@ -10,7 +10,7 @@ namespace orrery {
 Bytes encode_pfm(const Image& linear);
 
 /// "PF", or "Pf" whose grey is given to all three channels; both byte orders. The sign of the scale is the byte order;
-/// its magnitude, a unit nobody agrees on, is not applied. Throws std::runtime_error.
-Image decode_pfm(ByteView file);
+/// its magnitude, a unit nobody agrees on, is not applied. Throws std::runtime_error, as decode_image does.
+Image decode_pfm(ByteView file, std::uint64_t memory = unlimited_memory);
 
 }  // namespace orrery

@@ -11,7 +11,7 @@ namespace orrery {
 Bytes encode_png(const Image& tone_mapped, const Metadata& metadata);
 
 /// Grey, palette, RGB, with or without alpha (which is ignored), 1 to 16 bits, sample / greatest sample. Gamma chunks
-/// are not applied. Throws std::runtime_error.
-Image decode_png(ByteView file);
+/// are not applied. Throws std::runtime_error, as decode_image does.
+Image decode_png(ByteView file, std::uint64_t memory = unlimited_memory);
 
 }  // namespace orrery

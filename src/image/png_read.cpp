@@ -76,7 +76,7 @@ float channel_at(const png_byte* row, std::size_t index, bool wide) {
 
 }  // namespace
 
-Image decode_png(ByteView file) {
+Image decode_png(ByteView file, std::uint64_t memory) {
     PngReader reader(file);
     const png_structp png = reader.png;
     read_header(reader);
@@ -87,6 +87,7 @@ Image decode_png(ByteView file) {
     const std::size_t row_bytes = ask_for_rgb(reader);
     const bool wide = png_get_bit_depth(png, reader.info) == 16;
     if (row_bytes != std::size_t{3} * width * (wide ? 2 : 1)) throw std::runtime_error("cannot be turned into RGB");
+    check_memory(row_bytes + sizeof(png_bytep) + sizeof(Rgb) * std::uint64_t{width}, height, memory);
 
     // All rows at once: an interlaced image is complete in its last pass only.
     std::vector<png_byte> samples(row_bytes * height);

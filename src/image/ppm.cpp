@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "image/decode_limits.hpp"
 #include "image/metadata_text.hpp"
 #include "image/netpbm_header.hpp"
 #include "image/quantise.hpp"
@@ -25,7 +26,7 @@ Bytes encode_ppm(const Image& tone_mapped, const Metadata& metadata) {
     return file;
 }
 
-Image decode_ppm(ByteView file) {
+Image decode_ppm(ByteView file, std::uint64_t memory) {
     constexpr auto largest = std::numeric_limits<std::uint32_t>::max();
     NetpbmHeader header(file, NetpbmHeader::Comments::allowed);
     if (header.word() != "P6") throw std::runtime_error("not a binary PPM (P6)");
@@ -36,6 +37,7 @@ Image decode_ppm(ByteView file) {
     const std::size_t sample_bytes = maxval < 256 ? 1 : 2;
     const std::uint64_t pixels = std::uint64_t{width} * height;
     const ByteView samples = header.samples(pixels, 3 * sample_bytes);
+    check_memory(sizeof(Rgb) * std::uint64_t{width}, height, memory);
 
     const auto channel = [&](std::size_t index) {
         std::uint32_t sample = 0;  // most significant byte first

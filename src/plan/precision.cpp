@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "plan/unit.hpp"
-#include "scene/printable.hpp"
+#include "system/printable.hpp"
 
 namespace orrery {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/printable.hpp"
+#include "system/printable.hpp"
 
 namespace orrery {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/printable.hpp"
+#include "system/printable.hpp"
 
 namespace orrery {
 

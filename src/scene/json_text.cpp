@@ -7,8 +7,8 @@
 #include <string>
 
 #include "scene/json_tree_builder.hpp"
-#include "scene/printable.hpp"
 #include "scene/quick_json.hpp"
+#include "system/printable.hpp"
 
 namespace orrery {
 namespace {

@@ -4,7 +4,9 @@
 #include <rapidjson/reader.h>
 
 #include <charconv>
+#include <cstdlib>
 #include <cstring>
+#include <new>
 #include <utility>
 
 #include "scene/json_tree_builder.hpp"
@@ -53,6 +55,22 @@ private:
     JsonTreeBuilder builder_;
 };
 
+/// RapidJSON goes on with a null pointer where its own allocator finds no memory.
+struct Allocator {
+    static constexpr bool kNeedFree = true;
+    static void* existing(void* block) {
+        if (block == nullptr) throw std::bad_alloc();
+        return block;
+    }
+    void* Malloc(std::size_t size) { return size > 0 ? existing(std::malloc(size)) : nullptr; }
+    void* Realloc(void* block, std::size_t, std::size_t size) {
+        if (size > 0) return existing(std::realloc(block, size));
+        Free(block);
+        return nullptr;
+    }
+    static void Free(void* block) { std::free(block); }
+};
+
 bool is_ascii(std::string_view text) {
     std::uint64_t bits = 0;
     for (; text.size() >= 8; text.remove_prefix(8)) {
@@ -67,7 +85,7 @@ bool is_ascii(std::string_view text) {
 template <unsigned flags>
 std::optional<JsonTree> parse(std::string_view text) {
     rapidjson::MemoryStream stream(text.data(), text.size());
-    rapidjson::Reader reader;
+    rapidjson::GenericReader<rapidjson::UTF8<>, rapidjson::UTF8<>, Allocator> reader;
     Handler handler;
     if (!reader.Parse<flags | rapidjson::kParseNumbersAsStringsFlag>(stream, handler)) return std::nullopt;
     return handler.take();

@@ -1,11 +1,13 @@
 #include "scene/read.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <optional>
 #include <string>
@@ -13,11 +15,16 @@
 #include "scene/composition.hpp"
 #include "scene/json_text.hpp"
 #include "scene/settings.hpp"
+#include "system/file_descriptor.hpp"
+#include "system/links.hpp"
+#include "system/memory.hpp"
+#include "system/printable.hpp"
 
 namespace orrery {
 namespace {
 
-Scene read_root(const JsonTree& tree, const std::filesystem::path& file, Report& report) {
+Scene read_root(const JsonTree& tree, const std::filesystem::path& file, const std::filesystem::path& folder,
+                Report& report) {
     Scene scene;
     scene.file = file;
     const Node node(tree);
@@ -29,7 +36,7 @@ Scene read_root(const JsonTree& tree, const std::filesystem::path& file, Report&
         Fields fields(*composition, "a scene object", report);
         read_composition(fields, registries, report, scene);
         if (const auto renderer = fields.any("renderer", "a renderer object")) {
-            scene.settings = read_settings(*renderer, file.parent_path(), report);
+            scene.settings = read_settings(*renderer, folder, report);
         }
         fields.finish();
     }
@@ -37,76 +44,105 @@ Scene read_root(const JsonTree& tree, const std::filesystem::path& file, Report&
     return scene;
 }
 
-ReadResult resolved(const std::optional<JsonTree>& tree, const std::filesystem::path& file, Report& report) {
+ReadResult resolved(const std::optional<JsonTree>& tree, const std::filesystem::path& file,
+                    const std::filesystem::path& folder, Report& report) {
     std::optional<Scene> scene;
-    if (tree) scene = read_root(*tree, file, report);
+    if (tree) scene = read_root(*tree, file, folder, report);
     if (report.has_errors()) scene.reset();
     return {std::move(scene), report.take()};
 }
 
-ReadResult too_large(std::size_t bytes) {
-    auto message = bytes == 0 ? "found more text than fits in memory"
-                              : fmt::format("found {} bytes of text, expected a scene that fits in memory", bytes);
-    return {std::nullopt, {{Severity::error, "", std::move(message)}}};
-}
+/// Text that grows in place: the system moves pages of a large block, where a string would copy its bytes and hold them
+/// twice meanwhile.
+class Text {
+public:
+    Text() = default;
+    ~Text() { std::free(begin_); }
+    Text(const Text&) = delete;
+    Text& operator=(const Text&) = delete;
 
-/// The bytes of a file; empty where they cannot be had, which is reported.
-std::optional<std::string> contents(const std::filesystem::path& file, Report& report) {
-    const auto failure = [&](std::string message) {
-        report.add(Severity::error, "", std::move(message));
-        return std::nullopt;
-    };
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) return failure(fmt::format("cannot open this file: {}", std::strerror(errno)));
-    std::string text;
-    // A growing string holds its bytes twice now and then; a file that knows its size spares that.
-    std::error_code unknown;
-    if (const auto size = std::filesystem::file_size(file, unknown); !unknown && size <= largest_json)
-        text.reserve(size);
-    std::array<char, 1 << 16> block;
-    while (stream.read(block.data(), block.size()), stream.gcount() > 0) {
-        text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-        // A reader must end: a device or a pipe that never does is cut off here.
-        if (text.size() > largest_json)
-            return failure(fmt::format("found more than {} bytes, expected a scene below that", largest_json));
+    std::string_view view() const { return {begin_, size_}; }
+
+    /// Room for so many bytes behind the text.
+    char* room(std::size_t bytes) {
+        if (bytes > capacity_ - size_) {
+            const std::size_t capacity = std::max(size_ + bytes, capacity_ + capacity_ / 2);
+            char* const begin = static_cast<char*>(std::realloc(begin_, capacity));
+            if (begin == nullptr) throw std::bad_alloc();
+            begin_ = begin;
+            capacity_ = capacity;
+        }
+        return begin_ + size_;
     }
-    if (stream.bad()) return failure("cannot read this file; is it a folder?");
-    return text;
+    /// What was put there is text.
+    void grow(std::size_t bytes) { size_ += bytes; }
+
+private:
+    char* begin_ = nullptr;
+    std::size_t size_ = 0, capacity_ = 0;
+};
+
+/// The bytes of a file, as far as they can be text. False where they cannot be had, which is reported.
+bool read_text(const FileDescriptor& input, Text& text, Report& report) {
+    const auto fail = [&](std::string message) {
+        report.add(Severity::error, "", std::move(message));
+        return false;
+    };
+    struct stat status = {};
+    if (!input.is_open() || ::fstat(input.number(), &status) != 0)
+        return fail(fmt::format("cannot open this file: {}", std::strerror(errno)));
+    const std::uint64_t most = std::min<std::uint64_t>(largest_json, memory_limit());
+    constexpr std::size_t block = std::size_t{1} << 20;
+    if (S_ISREG(status.st_mode)) {
+        // A file may claim any size without taking it; what it would take to read it is known.
+        const auto size = static_cast<std::uint64_t>(status.st_size);
+        if (size > most) return fail(fmt::format("found {} bytes, expected a scene of at most {}", size, most));
+        text.room(size + block);
+    }
+    for (;;) {
+        char* const room = text.room(block);
+        const ssize_t count = ::read(input.number(), room, block);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return fail(fmt::format("cannot read this file: {}", std::strerror(errno)));
+        text.grow(static_cast<std::size_t>(count));
+        // No JSON holds a NUL, and what comes after one may never end. A reader must.
+        if (count == 0 || std::memchr(room, 0, static_cast<std::size_t>(count)) != nullptr) return true;
+        if (text.view().size() > most)
+            return fail(fmt::format("found more than {} bytes, expected a scene of at most that", most));
+    }
 }
 
 /// The tree has all there is in the text, which is gone on return: the scene takes its place in memory.
-std::optional<JsonTree> parse_file(const std::filesystem::path& file, std::size_t& bytes, Report& report) {
-    const std::optional<std::string> text = contents(file, report);
-    if (!text) return std::nullopt;
-    bytes = text->size();
-    return parse_json(*text, report);
+std::optional<JsonTree> parse_file(const std::filesystem::path& file, Report& report) {
+    const FileDescriptor input(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+    Text text;
+    if (!read_text(input, text, report)) return std::nullopt;
+    return parse_json(text.view(), report);
+}
+
+/// What a relative `output` starts from: the file's folder. A pipe has none, wherever its name is.
+std::filesystem::path anchor(const std::filesystem::path& file) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(file, error) && !means_open_file(file) ? file.parent_path() : "";
 }
 
 }  // namespace
 
 std::string format_diagnostic(std::string_view file, const Diagnostic& diagnostic) {
+    const std::string name = printable_whole(file);
     const char* severity = diagnostic.severity == Severity::error ? "error" : "warning";
-    if (diagnostic.where.empty()) return fmt::format("{}: {}: {}", file, severity, diagnostic.message);
-    return fmt::format("{}:{}: {}: {}", file, diagnostic.where, severity, diagnostic.message);
+    if (diagnostic.where.empty()) return fmt::format("{}: {}: {}", name, severity, diagnostic.message);
+    return fmt::format("{}:{}: {}: {}", name, diagnostic.where, severity, diagnostic.message);
 }
 
 ReadResult read_scene_text(std::string_view text, const std::filesystem::path& file) {
-    try {
-        Report report;
-        return resolved(parse_json(text, report), file, report);
-    } catch (const std::bad_alloc&) {
-        return too_large(text.size());
-    }
+    Report report;
+    return resolved(parse_json(text, report), file, file.parent_path(), report);
 }
 
 ReadResult read_scene(const std::filesystem::path& file) {
-    std::size_t bytes = 0;
-    try {
-        Report report;
-        return resolved(parse_file(file, bytes, report), file, report);
-    } catch (const std::bad_alloc&) {
-        return too_large(bytes);
-    }
+    Report report;
+    return resolved(parse_file(file, report), file, anchor(file), report);
 }
 
 }  // namespace orrery

@@ -26,11 +26,12 @@ struct ReadResult {
     std::vector<Diagnostic> diagnostics;  ///< all faults of the file, in file order as far as that makes sense
 };
 
-/// Reads and resolves a scene. Never throws on any byte string; allocates in proportion to the text.
-/// `file` names the source in Scene::file and anchors a relative `output`.
+/// Reads and resolves a scene, whatever byte string it is; allocates in proportion to the text and throws nothing but
+/// std::bad_alloc. `file` names the source in Scene::file and its folder anchors a relative `output`.
 ReadResult read_scene_text(std::string_view text, const std::filesystem::path& file);
 
-/// As above from disk; a file that cannot be read is one error with an empty `where`.
+/// As above from a file; one that cannot be read, or is larger than any scene or than memory, is one error with an
+/// empty `where`. Where it is no regular file, but a pipe say, the working directory anchors `output`.
 ReadResult read_scene(const std::filesystem::path& file);
 
 }  // namespace orrery

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scene/fields.hpp"
-#include "scene/printable.hpp"
+#include "system/printable.hpp"
 
 namespace orrery {
 

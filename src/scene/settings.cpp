@@ -1,9 +1,12 @@
 #include "scene/settings.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 #include "scene/image_memory.hpp"
-#include "scene/printable.hpp"
+#include "system/memory.hpp"
+#include "system/printable.hpp"
 
 namespace orrery {
 namespace {
@@ -17,8 +20,7 @@ void read_dimensions(Fields& fields, RenderSettings& settings) {
     if (!dimensions) return;
     settings.width = (*dimensions)[0];
     settings.height = (*dimensions)[1];
-    const auto fault = too_many_pixels(settings.width, settings.height,
-                                       physical_memory().value_or(std::numeric_limits<std::uint64_t>::max()));
+    const auto fault = too_many_pixels(settings.width, settings.height, memory_limit());
     if (fault) fields.fault("dimensions", *fault);
 }
 
@@ -26,9 +28,11 @@ void read_output(Fields& fields, const std::filesystem::path& folder, RenderSett
     if (!fields.has("output")) return;  // the command line may name it
     const std::optional<std::string_view> output = fields.text("output", "a file path");
     if (!output) return;
-    // A path with a NUL would be cut there by the operating system, and another file written.
-    if (output->empty() || output->find('\0') != std::string::npos) {
-        fields.fault("output", "found " + in_quotes(*output) + ", expected a file path");
+    // A path with a NUL would be cut there by the operating system, and another file written; with other control
+    // characters it would be no name that anybody can see and type.
+    if (output->empty() || !is_printable(*output)) {
+        const char* expected = output->empty() ? "a file path" : "a file path without control characters";
+        fields.fault("output", fmt::format("found {}, expected {}", in_quotes(*output), expected));
         return;
     }
     settings.output = (folder / *output).lexically_normal();

@@ -108,7 +108,7 @@ std::optional<std::uint64_t> control_group_memory(const fs::path& root) {
     return least != unlimited ? std::optional(least) : std::nullopt;
 }
 
-std::uint64_t memory() {
+std::uint64_t memory_limit() {
     // The standard library does not know; sysconf is POSIX, and _SC_PHYS_PAGES is common to Linux, the BSDs and macOS.
     const long pages = ::sysconf(_SC_PHYS_PAGES);
     const long page_size = ::sysconf(_SC_PAGESIZE);
@@ -121,8 +121,8 @@ std::uint64_t memory() {
 void keep_within_memory() {
 #if !defined(ORRERY_SANITIZED)  // a sanitizer reserves terabytes, and wants larger stacks
     rlimit limit = {};
-    if (::getrlimit(RLIMIT_DATA, &limit) != 0 || memory() >= limit.rlim_cur) return;
-    limit.rlim_cur = memory();
+    if (::getrlimit(RLIMIT_DATA, &limit) != 0 || memory_limit() >= limit.rlim_cur) return;
+    limit.rlim_cur = memory_limit();
     ::setrlimit(RLIMIT_DATA, &limit);
     pthread_attr_t attributes;
     if (::pthread_attr_init(&attributes) != 0) return;

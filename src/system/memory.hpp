@@ -15,7 +15,7 @@ std::optional<std::uint64_t> control_group_memory(const std::filesystem::path& r
 
 /// Bytes that this process may use: the machine's, or less where a control group allows less. The largest number where
 /// the system does not tell.
-std::uint64_t memory();
+std::uint64_t memory_limit();
 
 /// Keeps the process below that: what asks for more gets std::bad_alloc, and not the end without a word that the
 /// system has for it. Threads get stacks of a MiB instead of eight, which would count in full. Once, at the start.

@@ -124,10 +124,10 @@ double Passes::ceiling() const {
                              : std::numeric_limits<double>::infinity();
 }
 
-/// What there is room for, over pixels: the ceiling or what the time left is enough for.
-double Passes::room(double elapsed) const {
+/// What there is room for, over pixels: the ceiling or what that share of the time left is enough for.
+double Passes::room(double elapsed, double share_of_time) const {
     if (goal_.seconds <= 0 || count_ == 0) return ceiling();
-    return std::min(ceiling(), total_ + rate_ * time_to_plan * (goal_.seconds - elapsed));
+    return std::min(ceiling(), total_ + rate_ * share_of_time * (goal_.seconds - elapsed));
 }
 
 /// As much again as all before: few barriers and fine strata, and never far beyond what is needed. The first is the
@@ -229,11 +229,12 @@ std::vector<Task> Passes::next(double elapsed) {
         return {};
     }
     if (enough_known() && share(total_, elapsed) >= pilot_share) in_pilot_ = false;
-    const double limit = room(elapsed);
+    const double limit = room(elapsed, time_to_plan);
     const std::vector<double> samples = wanted(std::min(limit, total_of_next()));
     std::vector<Pattern> pass = patterns(samples, false);
     if (total_ + size(pass) > limit) pass = patterns(samples, true);
-    if (size(pass) == 0) pass = smallest(samples, limit);
+    // The time left is of no other use: no matter if that pass is lost.
+    if (size(pass) == 0) pass = smallest(samples, room(elapsed, 1));
     if (size(pass) == 0) {
         reason_ = limit < ceiling() ? StopReason::time : StopReason::samples;
         return {};

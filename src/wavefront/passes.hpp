@@ -60,7 +60,7 @@ private:
     double target() const;
     std::vector<double> wanted(double limit) const;
     double ceiling() const;
-    double room(double elapsed) const;
+    double room(double elapsed, double share_of_time) const;
     double total_of_next() const;
     double share(double total, double elapsed) const;
     Pattern pattern(std::size_t region, double samples, bool keep_below) const;

@@ -62,7 +62,10 @@ void render_in_passes(const Plan& plan, const RenderOptions& options, Film& film
         try {
             workers.run(tasks, progress);
         } catch (const TimeUp&) {
-            if (before.count() == 0) throw NothingInTime("not even two samples per pixel fit into the time");
+            if (before.count() == 0)
+                throw NothingInTime(
+                    "not even two samples per pixel fit into the time, so that there is no image; more time, a smaller "
+                    "one or a lower depth would help");
             film = std::move(*film_before);
             stats.dropped_samples = dropped_before;
             passes = before;

@@ -17,7 +17,7 @@ TEST(Info, PrintsSettingsMemoryAndPlan) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
     EXPECT_THAT(outcome.output,
                 AllOf(HasSubstr("640 x 480"), HasSubstr("9 per pixel, stratified 3 x 3 (10 asked)"),
-                      HasSubstr("film       31.6 MiB"), ContainsRegex("queues +[0-9]+ bytes"),
+                      HasSubstr("film       41.0 MiB"), ContainsRegex("queues +[0-9]+ bytes"),
                       HasSubstr(std::string(isa_name(best_isa()))), HasSubstr("tests/diffuse_area.pfm")));
     EXPECT_THAT(outcome.output, ContainsRegex("left out +generate: lens +the camera is a pinhole"));
     EXPECT_THAT(outcome.output, ContainsRegex("runs +shadow: area lights"));

@@ -16,6 +16,7 @@
 namespace orrery::test {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
@@ -89,6 +90,22 @@ TEST_P(Interruption, StaysIgnoredWhereItWas) {
     const Outcome outcome = program.wait();
     EXPECT_EQ(outcome.exit_code, 1) << "ended by its time";
     EXPECT_THAT(outcome.error, HasSubstr("time"));
+}
+
+// Four images of four million pixels take seconds to encode, which begins when the bar is gone.
+TEST_P(Interruption, WhileImagesAreWrittenSaysWhatIsLost) {
+    const TemporaryFolder folder;
+    PseudoTerminal terminal;
+    Program program({"render", scene_file("assignment_08.json"), "--size", "2048x2048", "--spp", "1", "--integrator",
+                     "depth", "-o", "a.png", "-o", "b.png", "-o", "c.exr", "-o", "d.png"},
+                    {.folder = folder.path(), .terminal = terminal.program_side()});
+    ASSERT_TRUE(terminal.shows("  \r")) << terminal.shown();
+    const auto sent = std::chrono::steady_clock::now();
+    program.send(GetParam());
+    EXPECT_EQ(program.wait().exit_code, 128 + GetParam());
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(1)) << "0.1 s, and a busy machine";
+    EXPECT_THAT(terminal.shown(), EndsWith("\rorrery: interrupted: images that were not written yet are lost\r\n"));
+    for (const std::string& name : folder.names()) EXPECT_THAT(name, AnyOf("a.png", "b.png", "c.exr"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, Interruption, ::testing::Values(SIGINT, SIGTERM, SIGHUP));

@@ -2,10 +2,12 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "image/image_file.hpp"
 #include "program.hpp"
@@ -93,6 +95,78 @@ TEST_F(Outputs, OneThatCannotBeWrittenIsKnownBeforeRendering) {
     EXPECT_THAT(folder.names(), ElementsAre("file", "folder.ppm", "scenes"));
 }
 
+TEST_F(Outputs, ANameThatCannotBeIsKnownBeforeRendering) {
+    fs::create_symlink("/dev/stdout", folder / "stdout.ppm");
+    fs::create_symlink("loop.ppm", folder / "loop.ppm");
+    const std::string names[] = {std::string(252, 'x') + ".ppm", "stdout.ppm", "loop.ppm",
+                                 std::string(5000, '/') + "x.ppm"};
+    for (const std::string& name : names)
+        for (const Arguments& arguments : {Arguments{"render", scene(""), "-o", "good.ppm", "-o", name},
+                                           Arguments{"render", scene(""), "-o", "good.ppm", "--stats", name}}) {
+            Arguments for_ever = arguments;
+            for_ever.insert(for_ever.end(), {"--spp", "4294967295"});
+            const Outcome outcome = run(for_ever);
+            // Where standard output is a file, that is what is said about the link to it.
+            EXPECT_EQ(outcome.exit_code, name == "stdout.ppm" ? 2 : 1) << name;
+            EXPECT_THAT(outcome.error, HasSubstr(name.substr(name.size() - 8)));
+        }
+    EXPECT_THAT(folder.names(), ElementsAre("loop.ppm", "scenes", "stdout.ppm"));
+}
+
+TEST_F(Outputs, WhatCannotBeAsLargeIsKnownBeforeRendering) {
+    const Arguments arguments = {"render", scene(""), "-o", "x.pfm", "--size", "64x64", "--spp", "4294967295"};
+    const Outcome outcome = run(arguments, {.largest_file = 20000});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.error, HasSubstr("x.pfm: takes 49152 bytes, and files may have 20000"));
+    EXPECT_THAT(folder.names(), ElementsAre("scenes"));
+}
+
+// It would be a new file of that name, and what is printed later would go to the old one.
+TEST_F(Outputs, AreNotWhereStandardOutputGoes) {
+    store(folder / "x.ppm", to_bytes("old"));
+    const Outcome outcome = run({"render", scene(""), "-o", "x.ppm", "--quiet"}, {.output = folder / "x.ppm"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.error, HasSubstr("standard output"));
+    EXPECT_EQ(load(folder / "x.ppm"), "old");
+}
+
+/// Gives the scene through a pipe, and where it goes.
+void feed(const fs::path& pipe, const std::string& text) {
+    const int end = ::open(pipe.c_str(), O_WRONLY | O_CLOEXEC);
+    EXPECT_EQ(::write(end, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    ::close(end);
+}
+
+TEST_F(Outputs, OfAPipedSceneAreInTheWorkingDirectory) {
+    auto world = small_world();
+    world["scene"]["renderer"]["output"] = "piped.png";
+    const std::string text = world.dump();
+    ASSERT_EQ(::mkfifo((folder / "scenes/fifo").c_str(), 0600), 0);
+    {
+        std::jthread feeder([&] { feed(folder / "scenes/fifo", text); });
+        EXPECT_EQ(run({"render", "scenes/fifo"}).output, "piped.png\n");
+    }
+    EXPECT_TRUE(fs::remove(folder / "piped.png"));
+
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    ASSERT_EQ(::write(ends[1], text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    ::close(ends[1]);
+    // As a shell names <(...).
+    EXPECT_EQ(run({"render", "/dev/fd/" + std::to_string(ends[0])}).output, "piped.png\n");
+    ::close(ends[0]);
+    EXPECT_TRUE(fs::remove(folder / "piped.png"));
+
+    // A file, but one that is open: `< scenes/world.json` and /dev/stdin.
+    store(folder / "scenes/world.json", to_bytes(text));
+    const int open = ::open((folder / "scenes/world.json").c_str(), O_RDONLY);
+    EXPECT_EQ(run({"render", "/dev/fd/" + std::to_string(open)}).output, "piped.png\n");
+    ::close(open);
+    EXPECT_TRUE(fs::remove(folder / "piped.png"));
+
+    EXPECT_EQ(run({"render", "scenes/world.json"}).output, "scenes/piped.png\n");
+}
+
 TEST_F(Outputs, AFullDiskLeavesThePreviousImage) {
     for (const char* name : {"x.ppm", "x.png", "x.pfm", "x.exr"}) {
         store(folder / name, to_bytes("previous"));
@@ -106,9 +180,10 @@ TEST_F(Outputs, AFullDiskLeavesThePreviousImage) {
 }
 
 TEST_F(Outputs, TheOthersAreWrittenWhereOneFails) {
-    // 64 x 64 pixels are 12 KiB as PPM and 48 KiB as PFM.
-    const Outcome outcome = run({"render", scene(""), "-o", "x.pfm", "-o", "x.ppm", "--size", "64x64", "--spp", "1"},
-                                {.largest_file = 20000});
+    // 64 x 64 pixels are 12 KiB as PPM, and noise is three times as much as EXR, which nobody can tell before.
+    const Outcome outcome =
+        run({"render", scene_file("assignment_08.json"), "-o", "x.exr", "-o", "x.ppm", "--size", "64x64", "--spp", "1"},
+            {.largest_file = 13000});
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_EQ(outcome.output, "x.ppm\n");
     EXPECT_THAT(folder.names(), ElementsAre("scenes", "x.ppm"));

@@ -2,8 +2,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "scene/printable.hpp"
 #include "scene/read.hpp"
+#include "system/printable.hpp"
 #include "wavefront/render.hpp"
 
 namespace {

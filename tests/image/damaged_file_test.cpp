@@ -62,6 +62,21 @@ TEST_P(DamagedFile, DoesNoHarmBehindTheMagic) {
     }
 }
 
+// A million black pixels pack into a few thousand bytes, and take 12 MB.
+TEST_P(DamagedFile, IsRefusedWhereItsPixelsDoNotFitInMemory) {
+    const Image black{1000, 1000, std::vector<Rgb>(1'000'000)};
+    const Bytes file = encode_image(GetParam(), black, ToneMap::none, {});
+    test::restart_allocation_watch();
+    try {
+        decode_image(file, 11'000'000);
+        ADD_FAILURE() << "it was read";
+    } catch (const std::runtime_error& fault) {
+        EXPECT_NE(std::string(fault.what()).find("of memory are left"), std::string::npos) << fault.what();
+    }
+    EXPECT_LE(test::largest_allocation(), 1'000'000u) << "known before any is taken";
+    EXPECT_EQ(decode_image(file, 17'000'000).pixels, black.pixels);
+}
+
 std::string name_of(const ::testing::TestParamInfo<ImageFormat>& info) {
     switch (info.param) {
         case ImageFormat::ppm:

@@ -1,15 +1,16 @@
 // Failures of the operating system that no test can bring about in earnest everywhere: a disk that is full on write,
-// on flush or only on close, a rename that fails, a signal in the middle.
+// on flush or only on close, a rename that fails, no descriptor left, a signal in the middle.
 #pragma once
 
 #include <functional>
 
 namespace orrery::test {
 
-enum class SystemCall { write, fsync, close, rename };
+enum class SystemCall { open, duplicate, lock, set_mode, write, fsync, close, rename };
 
 /// While it lives, the given call does `instead` first; where that returns an error number the call fails with it
-/// and does nothing else (close closes nonetheless, as the kernel does), and where it returns 0 the call goes on.
+/// and does nothing else (close closes nonetheless, as the kernel does), and where it returns 0 the call goes on. Of
+/// open only what makes a file is meant, of fcntl what duplicates a descriptor.
 /// The linker puts us between: see --wrap in CMakeLists.txt. One at a time.
 class SystemFault {
 public:

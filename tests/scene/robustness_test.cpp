@@ -6,8 +6,8 @@
 #include <random>
 #include <sstream>
 
-#include "scene/printable.hpp"
 #include "scene/world.hpp"
+#include "system/printable.hpp"
 
 namespace orrery::test {
 namespace {

@@ -1,11 +1,10 @@
-// Words in messages: edit distance, suggestions, and text made printable.
+// Words in messages: edit distance and suggestions.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <string>
 #include <vector>
 
-#include "scene/printable.hpp"
 #include "scene/report.hpp"
 #include "scene/spelling.hpp"
 
@@ -51,24 +50,6 @@ TEST(SpellingTest, BudgetRunsOut) {
     while (answers < 10'000'000 && !spelling.nearest("flor", words).empty()) ++answers;
     EXPECT_GT(answers, 100'000);
     EXPECT_LT(answers, 10'000'000);
-}
-
-TEST(PrintableTest, EscapesWhatATerminalShouldNotSee) {
-    EXPECT_EQ(printable("grey \xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8C\x8D"), "grey \xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8C\x8D");
-    EXPECT_EQ(printable("a\x1B[2Jb\n"), "a\\x1B[2Jb\\x0A");
-    EXPECT_EQ(printable(std::string_view("\0", 1)), "\\x00");
-    EXPECT_EQ(printable("\xC2\x9B"), "\\xC2\\x9B") << "a C1 control character";
-    EXPECT_EQ(printable("\xC0\xAF"), "\\xC0\\xAF") << "overlong";
-    EXPECT_EQ(printable("\xED\xA0\x80"), "\\xED\\xA0\\x80") << "surrogate";
-    EXPECT_EQ(printable("\xE2\x82"), "\\xE2\\x82") << "cut short";
-    EXPECT_EQ(printable("\xF4\x90\x80\x80"), "\\xF4\\x90\\x80\\x80") << "past U+10FFFF";
-}
-
-TEST(PrintableTest, ShortensInTheMiddleBetweenCharacters) {
-    EXPECT_EQ(printable("abcdefghijkl", 6), "abcd...kl");
-    EXPECT_EQ(printable("abcdef", 6), "abcdef");
-    // Neither cut may fall into the two-byte character.
-    EXPECT_EQ(printable("abc\xC3\xA9xxxxxx\xC3\xA9z", 6), "abc...z");
 }
 
 TEST(ReportTest, KeepsAThousandOfASeverityAndCountsTheRest) {

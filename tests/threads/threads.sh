@@ -27,9 +27,10 @@ expect 0 render "$scenes/assignment_03.json" --size 48x48 --time 2s -o "$folder/
 expect 0 render "$folder/many.json" --size 64x64 --spp 2 --stats "$folder/a.json" -o "$folder/a.exr"
 expect 0 render "$folder/many.json" --size 64x64 --spp 2 --profile -o "$folder/a.exr"
 
-# The signal comes in the middle of a render that would take minutes.
+# The signal comes in the middle of a render that would take minutes. A shell has it ignored by what it starts in the
+# background, and so it would stay.
 echo "orrery render, and SIGINT"
-"$orrery" render "$scenes/assignment_06.json" --size 256x256 --threads 4 --quiet -o "$folder/a.exr" &
+env --default-signal=INT "$orrery" render "$scenes/assignment_06.json" --size 256x256 --threads 4 --quiet -o "$folder/a.exr" &
 program=$!
 sleep 3
 kill -INT $program

@@ -1,6 +1,8 @@
-#include "scene/printable.hpp"
+#include "system/printable.hpp"
 
 #include <fmt/format.h>
+
+#include <cstdint>
 
 namespace orrery {
 namespace {
@@ -20,6 +22,13 @@ bool second_byte_fits(unsigned char lead, unsigned char second) {
     return second >= low && second <= high;
 }
 
+/// Characters beyond ASCII that break lines, or change the order in which others are shown: a C1 control, Arabic letter
+/// mark, left-to-right and right-to-left marks, line and paragraph separators, embeddings and overrides, isolates.
+bool stirs_lines(std::uint32_t c) {
+    return (c >= 0x80 && c < 0xA0) || c == 0x61C || c == 0x200E || c == 0x200F || (c >= 0x2028 && c <= 0x202E) ||
+           (c >= 0x2066 && c <= 0x2069);
+}
+
 /// Length of the printable character that `text` starts with; 0 where it starts with none.
 std::size_t printable_length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -30,8 +39,9 @@ std::size_t printable_length(std::string_view text) {
     for (std::size_t i = 2; i < length; ++i) {
         if ((byte(i) & 0xC0) != 0x80) return 0;
     }
-    const bool c1_control = byte(0) == 0xC2 && byte(1) < 0xA0;
-    return c1_control ? 0 : length;
+    std::uint32_t character = byte(0) & (0x7Fu >> length);
+    for (std::size_t i = 1; i < length; ++i) character = character << 6 | (byte(i) & 0x3Fu);
+    return stirs_lines(character) ? 0 : length;
 }
 
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
@@ -61,6 +71,15 @@ std::string printable(std::string_view text, std::size_t limit) {
     for (int i = 0; i < 3 && head > 0 && is_continuation(text[head]); ++i) --head;
     for (int i = 0; i < 3 && tail < text.size() && is_continuation(text[tail]); ++i) ++tail;
     return escaped(text.substr(0, head)) + "..." + escaped(text.substr(tail));
+}
+
+bool is_printable(std::string_view text) {
+    while (!text.empty()) {
+        const std::size_t length = printable_length(text);
+        if (length == 0) return false;
+        text.remove_prefix(length);
+    }
+    return true;
 }
 
 std::string in_quotes(std::string_view text) { return '"' + printable(text) + '"'; }

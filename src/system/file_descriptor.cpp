@@ -1,4 +1,4 @@
-#include "image/file_descriptor.hpp"
+#include "system/file_descriptor.hpp"
 
 #include <fmt/format.h>
 
