@@ -35,6 +35,7 @@ Scene random_scene(std::uint32_t count) {
     scene.settings.samples = 64;
     scene.settings.depth = 2;
     scene.settings.roulette = false;
+    scene.settings.precision = Precision::binary32;
     return scene;
 }
 
@@ -53,6 +54,7 @@ Scene file_scene(const std::filesystem::path& folder, const std::string& name) {
     }
     read.scene->settings.width = read.scene->settings.height = 512;
     read.scene->settings.samples = 64;
+    read.scene->settings.precision = Precision::binary32;
     return std::move(*read.scene);
 }
 

@@ -134,8 +134,7 @@ void add_machine(CLI::App& app, Arguments& arguments) {
                [&](const std::string& text) { arguments.isa = parse_isa(text); })
         ->group(group);
     add_option(app, "--precision", alternatives(precision_words),
-               "Number type to compute in; auto is float where its positions are good enough for the scene (default: "
-               "float)",
+               "Number type to compute in; auto is float where that is good enough for the scene (default: auto)",
                [&](const std::string& text) { arguments.overrides.precision = parse_word(text, precision_words); })
         ->group(group);
     add_option(app, "--wave-size", "N",

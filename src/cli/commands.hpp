@@ -27,4 +27,7 @@ std::optional<Scene> load_scene(const Arguments& arguments);
 /// The scene's plan. Where building its tree takes long, a terminal is told.
 Plan plan_visibly(const Arguments& arguments, Scene scene);
 
+/// Unless --quiet.
+void print_warnings(const Arguments& arguments, const Plan& plan);
+
 }  // namespace orrery

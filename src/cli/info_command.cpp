@@ -64,6 +64,7 @@ int info_command(const Arguments& arguments) {
     std::optional<Scene> scene = load_scene(arguments);
     if (!scene) return exit_code::misused;
     const Plan plan = plan_visibly(arguments, std::move(*scene));
+    print_warnings(arguments, plan);
     const RenderSettings& settings = plan.settings();
     const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
 

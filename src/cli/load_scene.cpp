@@ -13,6 +13,13 @@ namespace orrery {
 
 namespace {
 
+void print_diagnostics(const Arguments& arguments, const std::vector<Diagnostic>& diagnostics) {
+    for (const Diagnostic& diagnostic : diagnostics) {
+        if (diagnostic.severity == Severity::warning && arguments.quiet) continue;
+        print_line(format_diagnostic(arguments.scene.string(), diagnostic));
+    }
+}
+
 ReadResult read_visibly(const Arguments& arguments) {
     const LateNotice notice(!arguments.quiet, fmt::format("reading {} ...", arguments.scene.filename().string()));
     try {
@@ -26,10 +33,7 @@ ReadResult read_visibly(const Arguments& arguments) {
 
 std::optional<Scene> load_scene(const Arguments& arguments) {
     ReadResult result = read_visibly(arguments);
-    for (const Diagnostic& diagnostic : result.diagnostics) {
-        if (diagnostic.severity == Severity::warning && arguments.quiet) continue;
-        print_line(format_diagnostic(arguments.scene.string(), diagnostic));
-    }
+    print_diagnostics(arguments, result.diagnostics);
     if (result.scene) apply(arguments.overrides, result.scene->settings);
     return std::move(result.scene);
 }
@@ -39,5 +43,7 @@ Plan plan_visibly(const Arguments& arguments, Scene scene) {
                             fmt::format("building a tree of {} ...", counted(scene.primitives.size(), "sphere")));
     return Plan(std::move(scene), arguments.threads);
 }
+
+void print_warnings(const Arguments& arguments, const Plan& plan) { print_diagnostics(arguments, plan.warnings()); }
 
 }  // namespace orrery

@@ -83,14 +83,6 @@ std::vector<fs::path> write_all(const Outputs& outputs, const Plan& plan, const 
     return written;
 }
 
-void warn_of_precision(const Plan& plan) {
-    const Precision precision = plan.settings().precision;
-    if (const auto coarse = coarse_positions(plan.scene(), precision)) {
-        const char* advice = precision == Precision::binary32 ? "; use --precision double" : "";
-        print_warning(in_words(*coarse, precision) + advice);
-    }
-}
-
 void note_fewer_samples(const Plan& plan, const Goal& goal) {
     if (goal.asked() || plan.samples() == plan.settings().samples) return;
     print_message(fmt::format("orrery: note: stratified takes {} per pixel, the square number below the {} asked\n",
@@ -117,10 +109,8 @@ int render_command(const Arguments& arguments) {
     require_writable(outputs, *scene);
 
     const Plan plan = plan_visibly(arguments, std::move(*scene));
-    if (!arguments.quiet) {
-        warn_of_precision(plan);
-        note_fewer_samples(plan, goal);
-    }
+    print_warnings(arguments, plan);
+    if (!arguments.quiet) note_fewer_samples(plan, goal);
     const auto outcome = render_until_signal(plan, arguments, goal);
     if (const auto* stopped = std::get_if<Stopped>(&outcome)) return exit_code::ended_by(stopped->signal);
     const auto& result = std::get<RenderResult>(outcome);

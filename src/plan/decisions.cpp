@@ -29,7 +29,7 @@ std::vector<Decision> Plan::decisions() const {
     const auto decide = [&](const char* part, bool runs, std::string reason) {
         list.push_back({part, runs, std::move(reason)});
     };
-    decide("double precision", s.precision == Precision::binary64, reason_of_precision(scene_));
+    decide("double precision", s.precision == Precision::binary64, precision_reason_);
     decide("unit of length", unit_.length != 1,
            unit_.length != 1 ? fmt::format("{:.3g}, in the middle of {:.2g} to {:.2g}: all scales compute alike",
                                            unit_.length, unit_.smallest, unit_.largest)

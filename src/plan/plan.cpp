@@ -22,14 +22,10 @@ constexpr std::uint32_t bit(Scattering kind) { return 1u << static_cast<unsigned
 Plan::Plan(Scene scene, unsigned threads) : scene_(std::move(scene)) {
     RenderSettings& s = scene_.settings;
     require_valid(scene_);
-    unit_ = length_unit(scene_);
     if (s.estimator == Estimator::stratified) {
         strata_ = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(s.samples)));
     }
-    if (s.precision == Precision::automatic) {
-        const bool coarse = out_of_float_range(scene_, unit_) || coarse_positions(scene_, Precision::binary32);
-        s.precision = coarse ? Precision::binary64 : Precision::binary32;
-    }
+    plan_precision();
     plan_camera();
     plan_needs();
     plan_tables(threads);

@@ -5,9 +5,11 @@
 #include <variant>
 #include <vector>
 
+#include "plan/coincident.hpp"
 #include "plan/precision.hpp"
 #include "plan/tables.hpp"
 #include "plan/unit.hpp"
+#include "scene/read.hpp"
 
 namespace orrery {
 
@@ -51,11 +53,14 @@ public:
     Plan(const Plan&) = delete;
     Plan& operator=(const Plan&) = delete;
 
+    /// Without what was listed twice.
     const Scene& scene() const { return scene_; }
     /// Their precision is never automatic: the plan has decided.
     const RenderSettings& settings() const { return scene_.settings; }
     const Needs& needs() const { return needs_; }
     std::vector<Decision> decisions() const;
+    /// What a user should know of the scene before it is rendered.
+    const std::vector<Diagnostic>& warnings() const { return warnings_; }
 
     /// In the settings' precision, float or double; the other one throws std::bad_variant_access.
     template <class Real = float>
@@ -75,6 +80,8 @@ public:
     const LengthUnit& unit() const { return unit_; }
 
 private:
+    void plan_precision();
+    void drop(const std::vector<Twins>& same);
     void plan_camera();
     void plan_tables(unsigned threads);
     void plan_needs();
@@ -86,6 +93,8 @@ private:
     std::uint32_t strata_ = 1;
     CameraFrame frame_;
     LengthUnit unit_;
+    std::string precision_reason_;
+    std::vector<Diagnostic> warnings_;
     std::size_t nodes_ = 0;                        ///< of the tree
     std::size_t emitters_ = 0, point_lights_ = 0;  ///< that are switched on
     std::variant<std::monostate, Tables<float>, Tables<double>> tables_;

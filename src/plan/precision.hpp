@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 
+#include "plan/unit.hpp"
 #include "scene/scene.hpp"
 
 namespace orrery {
@@ -34,7 +35,11 @@ std::optional<CoarsePositions> coarse_positions(const Scene& scene, Precision pr
 /// `sphere "ground" of radius 1e+07: positions are good to 0.6 units in float, details are as small as 1`.
 std::string in_words(const CoarsePositions& coarse, Precision precision);
 
-/// Why it is rendered in float or in double.
-std::string reason_of_precision(const Scene& scene);
+/// Why the number type is too coarse for the scene, in words: for the range of its lengths or for positions. Nothing
+/// where it will do.
+std::optional<std::string> too_coarse(const Scene& scene, const LengthUnit& unit, Precision precision);
+
+constexpr double unit_roundoff(Precision precision) { return precision == Precision::binary64 ? 0x1p-53 : 0x1p-24; }
+constexpr const char* name_of(Precision precision) { return precision == Precision::binary64 ? "double" : "float"; }
 
 }  // namespace orrery

@@ -19,13 +19,17 @@ bool is_fraction(const glm::dvec3& v) { return is_light(v) && v.x <= 1 && v.y <=
 // Written so that what is no number fails.
 bool positive(double x) { return x > 0 && std::isfinite(x); }
 
+// Far beyond what a file may hold; but cubes of lengths have to be numbers, of double at least (unit.hpp).
+bool is_place(const glm::dvec3& v) { return std::abs(v.x) <= 1e90 && std::abs(v.y) <= 1e90 && std::abs(v.z) <= 1e90; }
+bool is_length(double x) { return x >= 1e-90 && x <= 1e90; }
+
 void require_settings(const RenderSettings& s) {
     require(s.width > 0 && s.height > 0 && s.samples > 0, "an image needs pixels and samples");
     require(s.integrator != Integrator::whitted || s.depth <= 20, "Whitted ray tracing goes to depth 20");
 }
 
 void require_camera(const Camera& c) {
-    require(finite(c.position) && finite(c.target) && c.position != c.target, "the camera looks nowhere");
+    require(is_place(c.position) && is_place(c.target) && c.position != c.target, "the camera looks nowhere");
     require(c.fov > 0 && c.fov < 180, "a field of view lies between 0 and 180 degrees");
     require(positive(c.aspect), "an aspect is positive");
     require(c.aperture >= 0 && std::isfinite(c.aperture), "an aperture is not negative");
@@ -45,12 +49,12 @@ void require_valid(const Scene& scene) {
         require(m.roughness >= 0 && m.roughness < 1, "a roughness lies in [0, 1)");
     }
     for (const Primitive& p : scene.primitives) {
-        require(finite(p.centre) && positive(p.radius), "a sphere needs a centre and a positive radius");
+        require(is_place(p.centre) && is_length(p.radius), "a sphere needs a centre and a positive radius");
         require(p.material < scene.materials.size(), "a primitive names no material");
         require(!p.emission || is_light(*p.emission), "emission is finite and not negative");
     }
     for (const PointLight& l : scene.point_lights)
-        require(finite(l.position) && is_light(l.intensity), "a point light's intensity is finite and not negative");
+        require(is_place(l.position) && is_light(l.intensity), "a point light's intensity is finite and not negative");
 }
 
 }  // namespace orrery

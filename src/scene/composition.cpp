@@ -1,19 +1,10 @@
 #include "scene/composition.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
-
-#include "scene/keyed_hash.hpp"
 
 namespace orrery {
 namespace {
-
-std::uint64_t place_hash(const Sphere& sphere) {
-    // Adding 0 turns -0 into 0: equal numbers hash alike.
-    const std::array<double, 4> place{sphere.centre.x + 0, sphere.centre.y + 0, sphere.centre.z + 0, sphere.radius + 0};
-    return keyed_hash({reinterpret_cast<const char*>(place.data()), sizeof place});
-}
 
 /// Reads the primitives, and remembers what the lights need to know of them.
 class Primitives {
@@ -22,10 +13,8 @@ public:
         : registries_(registries), report_(report), scene_(scene) {}
 
     void read(const Node& list) {
-        // No more spheres can be part of the image than there are shapes, whatever the length of the list.
-        const std::size_t most = std::min(list.size(), registries_.shapes.entries.size());
-        scene_.primitives.reserve(most);
-        listed_at_.reserve(most);
+        // A list that names the same few shapes over and over is mostly wrong.
+        scene_.primitives.reserve(std::min(list.size(), registries_.shapes.entries.size()));
         for (std::size_t i = 0; i < list.size(); ++i) read_one(list, i);
     }
 
@@ -52,7 +41,6 @@ private:
         }
         fields.finish();
         if (!sphere || !surface || !type || (*type == Type::emissive && !light)) return;
-        if (is_coincident(list, index, *sphere)) return;
 
         Primitive primitive;
         if (label) primitive.id = *label;
@@ -87,25 +75,7 @@ private:
         return area;
     }
 
-    /// Two spheres in one place are one surface: a ray leaving one copy must not find the other at distance zero.
-    bool is_coincident(const Node& list, std::size_t index, const Sphere& sphere) {
-        const auto next = static_cast<std::uint32_t>(scene_.primitives.size());
-        const std::uint32_t first = places_.find_or_insert(place_hash(sphere), next, [&](std::uint32_t i) {
-            return scene_.primitives[i].centre == sphere.centre && scene_.primitives[i].radius == sphere.radius;
-        });
-        if (first == next) {
-            listed_at_.push_back(static_cast<std::uint32_t>(index));
-            return false;
-        }
-        report_.add(
-            Severity::warning, Node(list, index).where(),
-            fmt::format("found the same sphere as {}, expected each once; the first listed wins and this one is "
-                        "no part of the image",
-                        Node(list, listed_at_[first]).where()));
-        return true;
-    }
-
-    /// Materials enter the scene on first use, so that none is there that no surviving primitive wears.
+    /// Materials enter the scene on first use, so that none is there that no primitive wears.
     std::uint32_t material_index(const Node& id, const Material& material) {
         const auto next = static_cast<std::uint32_t>(scene_.materials.size());
         if (!material_indices_.insert(*id.name(), next)) return *material_indices_.find(*id.name());
@@ -117,8 +87,6 @@ private:
     const Registries& registries_;
     Report& report_;
     Scene& scene_;
-    HashIndex places_;                      ///< of the scene's primitives, by centre and radius
-    std::vector<std::uint32_t> listed_at_;  ///< where in the file's list each of them stands
     NameMap material_indices_;
     NameSet carried_;
     bool some_carrier_unknown_ = false;

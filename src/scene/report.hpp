@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,9 @@
 
 namespace orrery {
 
-/// Diagnostics in order of arrival. The first 1000 of each severity are kept and the rest counted, so that a file of a
-/// million faults does not make a gigabyte of messages.
+/// Diagnostics in order of arrival. Warnings in the same words are one, at the first one's place and with their number.
+/// The first 1000 of each severity are kept and the rest counted, so that a file of a million faults does not make a
+/// gigabyte of messages.
 class Report {
 public:
     static constexpr std::size_t kept_per_severity = 1000;
@@ -28,6 +30,7 @@ public:
 
 private:
     std::vector<Diagnostic> diagnostics_;
+    std::map<std::string, std::size_t, std::less<>> alike_;  ///< by words, how many warnings beyond the first
     std::size_t errors_ = 0;
     std::size_t warnings_ = 0;
     Spelling spelling_;

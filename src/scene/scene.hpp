@@ -80,14 +80,14 @@ struct RenderSettings {
     /// Empty: the integrator's own (sigmoid for radiance; a DEPTH image is already in [0, 1] and is left alone).
     std::optional<ToneMap> tonemap;
     std::uint32_t seed = 0;
-    Precision precision = Precision::binary32;
+    Precision precision = Precision::automatic;
 };
 
 struct Scene {
     std::filesystem::path file;  ///< where it came from, for messages and metadata
     Camera camera;
     std::vector<Material> materials;
-    std::vector<Primitive> primitives;  ///< no two share centre and radius: the first listed won
+    std::vector<Primitive> primitives;  ///< in the file's order; one surface may be listed twice
     std::vector<PointLight> point_lights;
     glm::dvec3 background{0};  ///< radiance of the enclosing volume, >= 0 and finite
     RenderSettings settings;

@@ -36,6 +36,37 @@ TEST(Info, FollowsTheOptions) {
     EXPECT_THAT(info({"--tonemap", "linear", "--seed", "5"}), AllOf(HasSubstr("linear"), HasSubstr("seed       5")));
 }
 
+// Float, the faster, is good enough for what people make.
+TEST(Info, OrdinaryScenesAreComputedInFloat) {
+    for (const char* scene : {"assignment_01", "assignment_02", "assignment_03", "assignment_04", "assignment_05",
+                              "assignment_06", "assignment_07", "assignment_08", "sample", "showcase", "bench/like_46",
+                              "bench/like_484", "bench/many_lights", "bench/lamp_behind_glass"})
+        EXPECT_THAT(orrery({"info", scene_file(std::string(scene) + ".json")}).output,
+                    ContainsRegex("precision +float\n"))
+            << scene;
+    const TemporaryFolder folder;
+    for (const char* kind : {"random", "lattice", "cluster", "cosmos"}) {
+        orrery({"generate", kind, "--spheres", "2000", "-o", "world.json"}, {.folder = folder.path()});
+        EXPECT_THAT(orrery({"info", "world.json"}, {.folder = folder.path()}).output,
+                    ContainsRegex("precision +float\n"))
+            << kind;
+    }
+}
+
+TEST(Info, SaysWhyAnotherTakesDouble) {
+    EXPECT_THAT(
+        orrery({"info", scene_file("large_ground.json")}).output,
+        AllOf(ContainsRegex("precision +double\n"), ContainsRegex("runs +double precision +sphere \"ground\"")));
+}
+
+// The course's fourth scene lists its floor twice.
+TEST(Info, WarnsOfASurfaceListedTwice) {
+    const Outcome outcome = orrery({"info", scene_file("assignment_04.json")});
+    EXPECT_THAT(outcome.error, HasSubstr("assignment_04.json:/scene/primitives/1: warning: found the same sphere as "
+                                         "/scene/primitives/0, expected each once; the first listed wins"));
+    EXPECT_EQ(orrery({"info", scene_file("assignment_04.json"), "--quiet"}).error, "");
+}
+
 TEST(Info, RendersNothing) {
     const TemporaryFolder folder;
     std::filesystem::copy_file(scene_file("tests/lens.json"), folder / "lens.json");

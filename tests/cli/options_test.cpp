@@ -223,8 +223,9 @@ TEST(Options, Avx2AndAvx512GiveTheSameBytes) {
     for (const std::string& image : images) EXPECT_EQ(image, images.front());
 }
 
-TEST(Options, PrecisionFloatIsTheDefault) {
+TEST(Options, PrecisionAutoIsTheDefault) {
     EXPECT_EQ(image_of("tests/lens.json", {"--precision", "float"}), image_of("tests/lens.json", {}));
+    EXPECT_EQ(stats_of("large_ground.json", {"--size", "8x8", "--spp", "1"})["precision"], "double");
 }
 
 TEST(Options, ErrorIsReachedAndReported) {

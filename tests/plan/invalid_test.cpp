@@ -54,6 +54,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"NoRadius", [](Scene& s) { s.primitives[0].radius = 0; }},
                     Fault{"NegativeRadius", [](Scene& s) { s.primitives[0].radius = -1; }},
                     Fault{"RadiusThatIsNoNumber", [](Scene& s) { s.primitives[0].radius = nan; }},
+                    Fault{"RadiusWithoutACube", [](Scene& s) { s.primitives[0].radius = 1e-110; }},
+                    Fault{"CentreWithoutACube", [](Scene& s) { s.primitives[0].centre.z = -1e110; }},
                     Fault{"CentreAtInfinity", [](Scene& s) { s.primitives[0].centre.y = inf; }},
                     Fault{"NoIndexOfRefraction", [](Scene& s) { s.materials[1].eta = 0; }},
                     Fault{"ReflectanceAboveOne", [](Scene& s) { s.materials[0].rho.g = 1.5; }},

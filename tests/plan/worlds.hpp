@@ -19,6 +19,7 @@ inline Scene empty_world() {
     scene.settings.samples = 4;
     scene.settings.depth = 5;
     scene.settings.roulette_from = 0;
+    scene.settings.precision = Precision::binary32;
     return scene;
 }
 

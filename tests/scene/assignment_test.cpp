@@ -90,9 +90,9 @@ std::vector<Facts> all_facts() {
          6,
          far_eye,
          origin,
-         {ground, right(glass), left("specular"), lamp({0, -2, 5}, dvec3(30))},
+         {ground, ground, right(glass), left("specular"), lamp({0, -2, 5}, dvec3(30))},  // the plan drops one
          {},
-         {"/scene/primitives/1"}},
+         {}},
         {5,
          pt,
          4096,

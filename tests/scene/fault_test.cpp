@@ -56,21 +56,6 @@ TEST(Faults, SeveralAreAllReported) {
     EXPECT_FALSE(result.scene.has_value());
 }
 
-/// Places in the file's list, though the first pair left a gap in the scene's; and -0 is 0.
-TEST(Faults, CoincidentSpheresAreNamedByTheirPlaceInTheFile) {
-    Json json = world();
-    json["shapes"][2]["centre"] = {0, 0, 0};       // the left ball, primitive 2, where primitive 1 is
-    json["shapes"][3]["centre"] = {-0.0, 0, 3};    // the right one, primitive 3
-    json["shapes"][4]["centre"] = {0, -0.0, 3.0};  // the far one, primitive 4
-    const ReadResult result = read(json);
-    ASSERT_EQ(result.diagnostics.size(), 2u) << listing(result);
-    EXPECT_EQ(result.diagnostics[0].where, "/scene/primitives/2");
-    EXPECT_NE(result.diagnostics[0].message.find("same sphere as /scene/primitives/1,"), std::string::npos);
-    EXPECT_EQ(result.diagnostics[1].where, "/scene/primitives/4");
-    EXPECT_NE(result.diagnostics[1].message.find("same sphere as /scene/primitives/3,"), std::string::npos);
-    EXPECT_EQ(result.scene->primitives.size(), 4u);
-}
-
 /// Fields in an order of their own, each read where it stands.
 TEST(Faults, FieldsComeInAnyOrder) {
     std::string text = world().dump();
@@ -123,17 +108,6 @@ TEST(Faults, LightThatOnlyAPrimitiveNamesIsUsed) {
     ASSERT_EQ(result.diagnostics.size(), 1u) << listing(result);
     EXPECT_EQ(result.diagnostics[0].where, "/lights/1/power/0");
     EXPECT_EQ(result.diagnostics[0].severity, Severity::error);
-}
-
-TEST(Faults, FirstOfCoincidentSpheresWins) {
-    Json json = world();
-    json["shapes"][2]["centre"] = {2, -0.0, 0};  // -0 is the same place as 0
-    const ReadResult result = read(json);
-    ASSERT_TRUE(result.scene.has_value()) << listing(result);
-    const Scene& scene = *result.scene;
-    ASSERT_EQ(scene.primitives.size(), 5u);
-    EXPECT_EQ(scene.materials.at(scene.primitives.at(2).material).id, "brushed");
-    for (const Material& material : scene.materials) EXPECT_NE(material.id, "glass") << "worn by the loser alone";
 }
 
 TEST(Faults, FormatNamesFilePlaceAndSeverity) {

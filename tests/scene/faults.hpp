@@ -19,7 +19,7 @@ struct Fault {
     std::string where;                    ///< pointer the diagnostic must carry; `at` unless the row tells
     std::vector<std::string> says;        ///< parts of the message: found, expected, nearest
     /// Whether scene.schema.json rejects it, too; true unless the row tells. A schema cannot see what relates two
-    /// places of a file (ids and what they name, equal spheres, which entries are used), what depends on rounding or on
+    /// places of a file (ids and what they name, which entries are used), what depends on rounding or on
     /// the operating system, nor the bound of eta, which unused entries of real files break.
     bool schema_sees_it = true;
 };

@@ -54,7 +54,7 @@ TEST(SpellingTest, BudgetRunsOut) {
 
 TEST(ReportTest, KeepsAThousandOfASeverityAndCountsTheRest) {
     Report report;
-    for (int i = 0; i < 1500; ++i) report.add(Severity::warning, "/a", "w");
+    for (int i = 0; i < 1500; ++i) report.add(Severity::warning, "/a", "w" + std::to_string(i));
     EXPECT_FALSE(report.has_errors());
     report.add(Severity::error, "/b", "e");
     EXPECT_TRUE(report.has_errors());
@@ -62,6 +62,24 @@ TEST(ReportTest, KeepsAThousandOfASeverityAndCountsTheRest) {
     ASSERT_EQ(diagnostics.size(), 1002u);
     EXPECT_EQ(diagnostics[1000].where, "/b") << "a flood of warnings must not drown an error";
     EXPECT_EQ(diagnostics[1001].message, "500 more warnings not shown");
+}
+
+TEST(ReportTest, TellsWarningsInTheSameWordsOnceWithTheirNumber) {
+    Report report;
+    for (int i = 0; i < 386; ++i) {
+        report.add(Severity::warning, "/atoms/" + std::to_string(i), "no mass");
+        if (i % 100 == 0) report.add(Severity::warning, "/b", "no charge");
+        if (i % 200 == 0) report.add(Severity::error, "/c", "no radius");
+    }
+    report.add(Severity::warning, "/d", "no name");
+    const auto diagnostics = report.take();
+    ASSERT_EQ(diagnostics.size(), 5u);
+    EXPECT_EQ(diagnostics[0].where, "/atoms/0");
+    EXPECT_EQ(diagnostics[0].message, "no mass; 385 more like it");
+    EXPECT_EQ(diagnostics[1].message, "no charge; 3 more like it");
+    EXPECT_EQ(diagnostics[2].message, "no radius") << "errors have to be mended one by one";
+    EXPECT_EQ(diagnostics[3].message, "no radius");
+    EXPECT_EQ(diagnostics[4].message, "no name");
 }
 
 }  // namespace

@@ -129,6 +129,49 @@ TEST(LargeGround, ABallCastsACleanShadowInDouble) {
     EXPECT_GT(wrong_share(Precision::binary32), 0.1) << "or float needs no warning here";
 }
 
+/// A floor lit by what a lamp shows of itself through a ceiling: it pokes `depth` out of the ceiling's ball, which is
+/// around it or below, as the lamp hangs in its rind or stands on it. The lit cap's rim is a circle of radius a at
+/// height h; its light on the floor below is a^2 / (a^2 + h^2) of that of a whole sky, whatever the cap's shape.
+Scene lamp_through_a_ceiling(double ceiling, double lamp, double depth, bool around, double height, const dvec3& top) {
+    const long double lamp_at = height + lamp - depth, ceiling_at = around ? height + ceiling : height - ceiling;
+    const long double rim =
+        ((ceiling_at - lamp_at) * (ceiling_at + lamp_at) - (1.0L * ceiling - lamp) * (ceiling + lamp)) /
+        (2 * (ceiling_at - lamp_at));
+    const long double a2 = (lamp - (rim - lamp_at)) * (lamp + (rim - lamp_at));
+    Scene scene = picture(0.3 * height * (top + dvec3{0.6, 0, 0.1}), {0, 0, 0}, 1e-3, 1);
+    scene.settings.samples = 4096;
+    add_sphere(scene, -30.0 * top, 30, diffuse(dvec3{1}));
+    add_sphere(scene, static_cast<double>(ceiling_at) * top, ceiling, diffuse(dvec3{0}));
+    add_lamp(scene, static_cast<double>(lamp_at) * top, lamp, dvec3{static_cast<double>((a2 + rim * rim) / a2)},
+             diffuse(dvec3{0}));
+    return scene;
+}
+
+TEST(Lamp, ShinesThroughACeilingAsItIs) {
+    struct Case {
+        double ceiling, lamp, depth, height = 10.2;
+    };
+    for (const Case& c : {Case{1e5, 600, 0.5},
+                          {1e5, 600, 0.27},
+                          {1e5, 600, 0.02},
+                          {1e6, 600, 0.1},
+                          {1e6, 600, 0.02},
+                          {1e4, 60, 0.01, 1.5},
+                          {1e3, 5, 1e-3, 0.3},
+                          {1e7, 600, 0.3},
+                          {500, 20, 0.05, 2.1},
+                          {30, 3, 0.2, 1.3}}) {
+        for (const bool around : {true, false}) {
+            for (const dvec3& top : {dvec3{0, 1, 0}, glm::normalize(dvec3{1, 2, -0.7})}) {
+                const Image image = image_of(lamp_through_a_ceiling(c.ceiling, c.lamp, c.depth, around, c.height, top));
+                double mean = 0;
+                for (const Rgb& pixel : image.pixels) mean += pixel.g / 256;
+                EXPECT_NEAR(mean, 1, 0.01) << c.ceiling << ", " << c.lamp << ", " << c.depth << ", " << around;
+            }
+        }
+    }
+}
+
 // A quarter above the planet, whose centre is 1e7 away: in float the difference of the two is 0 or 1.
 TEST(LargeGround, DistancesAreDoubles) {
     Scene scene = ball_on_a_planet(Precision::binary64);
