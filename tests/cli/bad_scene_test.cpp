@@ -88,7 +88,7 @@ TEST(BadScene, NumbersThatAreNone) {
 TEST(BadScene, DimensionsBeyondReason) {
     refusal_of(spoilt("/scene/renderer/dimensions", {1'000'000'000, 1'000'000'000}));
     refusal_of(spoilt("/scene/renderer/dimensions", {1'000'000'000, 1}));
-    EXPECT_THAT(refusal_of(spoilt("/scene/renderer/dimensions", {65536, 65536})), HasSubstr("463.9 GB"));
+    EXPECT_THAT(refusal_of(spoilt("/scene/renderer/dimensions", {65536, 65536})), HasSubstr("601.3 GB"));
 }
 
 TEST(BadScene, FilesThatAreNoScene) {

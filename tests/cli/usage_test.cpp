@@ -219,7 +219,7 @@ TEST(Usage, OutputsHaveAKnownEndingAndAreDifferentFiles) {
 TEST(Usage, MorePixelsThanMemoryAreRefusedWithTheFigure) {
     const Outcome outcome = orrery({"render", any_scene, "-o", "/x.ppm", "--size", "65536x65536"});
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.error, HasSubstr("463.9 GB"));
+    EXPECT_THAT(outcome.error, HasSubstr("601.3 GB"));
 }
 
 TEST(Usage, AScenesOwnDepthMayBeTooMuchForWhitted) {

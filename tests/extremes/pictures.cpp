@@ -136,6 +136,10 @@ void move(Errors& errors, Dice& dice, const Pipeline& how, double far) {
     moved.camera.target += by;
     for (Primitive& p : moved.primitives) p.centre += by;
     for (PointLight& light : moved.point_lights) light.position += by;
+    // Balls as near to each other as roundings out there are one surface, as they should be: another picture.
+    Scene listed = moved;
+    listed.settings.precision = how.precision;
+    if (Plan(std::move(listed)).scene().primitives.size() != scene.primitives.size()) return;
     const Image truth = render(scene, {how.mode, how.isa, Precision::binary64}).image, image = render(moved, how).image;
     // Where float is too coarse the planner says so, of a picture whose pixels are fine enough to see it.
     Scene finer = moved;
