@@ -22,6 +22,9 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_alw
 
 [[noreturn]] void end_by(int signal) {
     remove_pending_temporaries();
+    // Whoever shows a progress bar will not take it back any more.
+    constexpr char erase_line[] = "\r\x1B[K";
+    if (::isatty(STDERR_FILENO) != 0) static_cast<void>(!::write(STDERR_FILENO, erase_line, sizeof erase_line - 1));
     Loss::say();
     ::_exit(exit_code::ended_by(signal));
 }

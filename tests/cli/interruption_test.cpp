@@ -38,8 +38,9 @@ TEST_P(Interruption, InMidRenderLeavesThePreviousImageAndNothingElse) {
     EXPECT_EQ(outcome.output, "");
     EXPECT_EQ(load(folder / "x.png"), "previous");
     EXPECT_THAT(folder.names(), ElementsAre("x.png"));
-    EXPECT_THAT(terminal.shown(), EndsWith(" \rorrery: interrupted: the render is lost, no image was written\r\n"))
-        << "the bar is gone";
+    const std::string loss = "orrery: interrupted: the render is lost, no image was written\r\n";
+    EXPECT_THAT(terminal.shown(), AnyOf(EndsWith(" \r" + loss), EndsWith("\r\x1B[K" + loss)))
+        << "the bar is gone, also where a busy machine makes the handler end the program";
 }
 
 TEST_P(Interruption, WhileReadingTheSceneEndsAtOnce) {
@@ -104,7 +105,8 @@ TEST_P(Interruption, WhileImagesAreWrittenSaysWhatIsLost) {
     program.send(GetParam());
     EXPECT_EQ(program.wait().exit_code, 128 + GetParam());
     EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(1)) << "0.1 s, and a busy machine";
-    EXPECT_THAT(terminal.shown(), EndsWith("\rorrery: interrupted: images that were not written yet are lost\r\n"));
+    EXPECT_THAT(terminal.shown(),
+                EndsWith("\r\x1B[Korrery: interrupted: images that were not written yet are lost\r\n"));
     for (const std::string& name : folder.names()) EXPECT_THAT(name, AnyOf("a.png", "b.png", "c.exr"));
 }
 
