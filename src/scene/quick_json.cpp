@@ -57,7 +57,7 @@ private:
 
 /// RapidJSON goes on with a null pointer where its own allocator finds no memory.
 struct Allocator {
-    static constexpr bool kNeedFree = true;
+    [[maybe_unused]] static constexpr bool kNeedFree = true;  // RapidJSON asks some allocators for it
     static void* existing(void* block) {
         if (block == nullptr) throw std::bad_alloc();
         return block;
