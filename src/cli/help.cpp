@@ -59,7 +59,8 @@ public:
         for (const CLI::Option* option : app->get_options())
             if (std::ranges::find(groups, option->get_group()) == groups.end()) groups.push_back(option->get_group());
         // The one that CLI11 gives to --help is declared first and read last.
-        std::ranges::stable_partition(groups, [](const std::string& group) { return group != "Options"; });
+        std::stable_partition(groups.begin(), groups.end(),
+                              [](const std::string& group) { return group != "Options"; });
         std::vector<Row> commands;
         for (const CLI::App* command : app->get_subcommands({}))
             commands.push_back({command->get_name(), command->get_description()});
