@@ -18,9 +18,11 @@ namespace {
 #define ORRERY_DECODER(format) ORRERY_JOIN(decode_, format)
 constexpr auto decode = orrery::ORRERY_DECODER(ORRERY_FORMAT);
 constexpr auto format = orrery::ImageFormat::ORRERY_FORMAT;
+/// What decoding may take: more than any input here is worth, and less than libFuzzer allows.
+constexpr std::uint64_t memory = std::uint64_t{256} << 20;
 
 orrery::Image again(const orrery::Image& image) {
-    return decode(encode_image(format, image, orrery::ToneMap::none, {}));
+    return decode(encode_image(format, image, orrery::ToneMap::none, {}), memory);
 }
 
 /// As far as the format's files hold pixels: 8 bits, of which a file with 16 loses some when it is written again.
@@ -43,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace orrery;
     Image image;
     try {
-        image = decode(std::as_bytes(std::span(data, size)));
+        image = decode(std::as_bytes(std::span(data, size)), memory);
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& refusal) {
