@@ -188,7 +188,7 @@ TEST(Surroundings, TellWhatTheirErrorsDoNotExplain) {
 }
 
 TEST(StandardError, IsTheRootOfTheVariance) {
-    EXPECT_EQ(standard_error({{}, {4, 0, unknown}, 1}), (Rgb{2, 0, std::numeric_limits<float>::infinity()}));
+    EXPECT_EQ(standard_error({{}, {4, 0, unknown}, {}, 1}), (Rgb{2, 0, std::numeric_limits<float>::infinity()}));
 }
 
 }  // namespace
