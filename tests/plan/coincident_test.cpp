@@ -179,7 +179,7 @@ TEST(ListedTwice, IsToldOnceWithItsNumber) {
         Plan(scene).warnings()[0].message,
         "found the same sphere as /scene/primitives/0, expected each once; the first listed wins and this one is no "
         "part of the image");
-    for (int i = 0; i < 385; ++i) scene.primitives.push_back(scene.primitives[i % 2]);
+    for (std::size_t i = 0; i < 385; ++i) scene.primitives.push_back(scene.primitives[i % 2]);
     scene.primitives.back().centre.x += ulp;
     scene.primitives[100].emission = dvec3{1};
     scene.primitives[200].emission = dvec3{0};
