@@ -1,6 +1,7 @@
 #include "bench/recorder.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "wavefront/tile.hpp"
 
@@ -230,16 +231,20 @@ Recording record(const Plan& plan, std::uint32_t waves) {
     const Table& forward = stages_for(best_isa());
     const Table table = noting(forward);
     Film film(plan.settings().width, plan.settings().height);
-    Wave<float> wave(plan, table, film, recording.wave_size);
+    const std::function<bool()> never;
+    const Cancellation cancellation(never);
+    Wave<float> wave(plan, table, film, cancellation, recording.wave_size);
     Session here{forward, recording, &wave};
     session = &here;
     const Tiling tiles(plan.settings().width, plan.settings().height, tile_side(plan.samples()));
     // Steps of the golden section visit the image evenly, whatever the number of tiles in a row.
     const auto step = static_cast<std::size_t>(0.618 * static_cast<double>(tiles.size())) | 1;
     for (std::size_t i = 0; i < waves; ++i) {
-        int polls = 0;  // before each wave: one wave of a tile is enough
-        render_tile(wave, {tiles[(i + 1) * step % tiles.size()], whole_pattern(plan)}, [&] { return polls++ == 1; });
-        wave.count = 0;
+        Tile tile = tiles[(i + 1) * step % tiles.size()];
+        const std::uint32_t pixels = std::max(1u, recording.wave_size / plan.samples());  // one wave of it is enough
+        tile.x1 = std::min(tile.x1, tile.x0 + pixels);
+        tile.y1 = std::min(tile.y1, tile.y0 + std::max(1u, pixels / (tile.x1 - tile.x0)));
+        render_tile(wave, {tile, whole_pattern(plan)});
     }
     session = nullptr;
     return recording;
