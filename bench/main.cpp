@@ -5,26 +5,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <fstream>
 
 #include "bench/benchmarks.hpp"
 #include "bench/embree_scene.hpp"
+#include "bench/results.hpp"
 #include "bench/timing.hpp"
 #include "scene/counted.hpp"
 
 using namespace orrery;
-
-namespace {
-
-/// As the system gives it; "unknown processor" where it does not.
-std::string cpu_name() {
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);)
-        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-    return "unknown processor";
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
     bench::Options options;
@@ -61,7 +49,7 @@ int main(int argc, char** argv) {
         options.random_counts = {8, 1024};
     }
 
-    benchmark::AddCustomContext("cpu", cpu_name());
+    benchmark::AddCustomContext("processor", bench::processor_name());
     benchmark::AddCustomContext("embree", bench::embree_version());
     // The page of figures is made of such results alone.
     benchmark::AddCustomContext("whole", whole ? "yes" : "no");

@@ -39,18 +39,7 @@ struct Row {
 /// the others, is subtracted. No image of many samples is needed, and none could be wrong.
 Row measure(const Scene& scene, const Case& tried, std::uint32_t renders);
 
-/// 95 % interval of a share seen as `count` of `trials` (Wilson's).
-struct Share {
-    double low = 0, high = 0;
-};
-Share share_of(std::uint32_t count, std::uint32_t trials);
-
 /// The scenes, samples, estimators, ways to stop and sizes of the page. `scenes`: those wanted.
 std::vector<Case> all_cases(const std::vector<std::string>& scenes);
-
-/// Tables for the page and a line per row of CSV.
-std::string table_of(const std::vector<Row>& rows);
-std::string groups_of(const std::vector<Row>& rows);
-std::string csv_of(const std::vector<Row>& rows);
 
 }  // namespace orrery::coverage

@@ -1,4 +1,5 @@
-// `orrery_coverage`: how often the interval that a render states holds the error it was made with; bench/COVERAGE.md.
+// `orrery_coverage`: how often the interval that a render states holds the error it was made with; the results go to
+// standard output, for bench/pages/coverage.py.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -6,10 +7,9 @@
 #include <cstdlib>
 
 #include "bench/coverage/coverage.hpp"
-#include "bench/report/files.hpp"
-#include "bench/report/page.hpp"
+#include "bench/results.hpp"
 #include "bench/tradeoff/measure.hpp"
-#include "bench/tradeoff/output.hpp"
+#include "cli/words.hpp"
 
 namespace fs = std::filesystem;
 using namespace orrery;
@@ -19,12 +19,12 @@ namespace {
 
 struct Arguments {
     std::uint32_t renders = 100;
-    fs::path scenes = "scenes", folder = "bench";
+    fs::path scenes = "scenes";
     std::vector<std::string> names = {"assignment_01", "assignment_02", "assignment_03", "assignment_04",
                                       "assignment_05", "assignment_08", "showcase",      "bench/lamp_behind_glass"};
 };
 
-void run(const Arguments& arguments) {
+void run(const Arguments& arguments, bool whole) {
     const auto start = std::chrono::steady_clock::now();
     const auto seconds = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -37,13 +37,12 @@ void run(const Arguments& arguments) {
                    tried.side, static_cast<int>(tried.estimator), tried.way(), row.inside, row.renders,
                    row.made / row.stated);
     }
-    const std::string setting = fmt::format("{} {} rows of {} renders in {:.0f} s.\n", tradeoff::machine_text(),
-                                            rows.size(), arguments.renders, seconds());
-    const fs::path page = arguments.folder / "COVERAGE.md";
-    bench::write_text(
-        page, bench::with_blocks(bench::text_of(page),
-                                 {{"setting", setting}, {"groups", groups_of(rows)}, {"rows", table_of(rows)}}));
-    bench::write_text(arguments.folder / "results" / "coverage.csv", csv_of(rows));
+    bench::print_facts(whole, seconds());
+    fmt::print("scene,side,estimator,way,renders,samples,made,stated,inside,above,below,at_least,width\n");
+    for (const Row& row : rows)
+        fmt::print("{},{},{},{},{},{:.4g},{:.5g},{:.5g},{},{},{},{},{:.4g}\n", row.tried.scene, row.tried.side,
+                   word_for(estimator_words, row.tried.estimator), row.tried.way(), row.renders, row.samples, row.made,
+                   row.stated, row.inside, row.above, row.below, row.open, row.width);
 }
 
 }  // namespace
@@ -54,10 +53,9 @@ int main(int argc, char** argv) {
     app.add_option("--renders", arguments.renders, "Of every row; 100 unless told")->check(CLI::Range(3, 100000));
     app.add_option("--only", arguments.names, "Scenes, without .json")->delimiter(',');
     app.add_option("--scenes", arguments.scenes, "Folder of the scenes");
-    app.add_option("--folder", arguments.folder, "Where COVERAGE.md is, and results go");
     CLI11_PARSE(app, argc, argv);
     try {
-        run(arguments);
+        run(arguments, app.count("--only") == 0);
     } catch (const std::exception& fault) {
         fmt::print(stderr, "orrery_coverage: {}\n", fault.what());
         return EXIT_FAILURE;

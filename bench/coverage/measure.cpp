@@ -86,12 +86,4 @@ Row measure(const Scene& scene, const Case& tried, std::uint32_t renders) {
     return row;
 }
 
-Share share_of(std::uint32_t count, std::uint32_t trials) {
-    constexpr double z = 1.96;
-    const double n = trials, p = count / n;
-    const double middle = (p + z * z / (2 * n)) / (1 + z * z / n);
-    const double half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n)) / (1 + z * z / n);
-    return {middle - half, middle + half};
-}
-
 }  // namespace orrery::coverage

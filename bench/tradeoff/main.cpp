@@ -1,4 +1,5 @@
-// `orrery_tradeoff`: what each option costs and buys, measured; bench/TRADEOFF.md, its plots and its table.
+// `orrery_tradeoff`: what each option costs and buys, measured; the results go to standard output, for
+// bench/pages/tradeoff.py.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,7 +10,8 @@
 #include <random>
 #include <thread>
 
-#include "bench/tradeoff/output.hpp"
+#include "bench/results.hpp"
+#include "bench/tradeoff/summary.hpp"
 
 namespace fs = std::filesystem;
 using namespace orrery;
@@ -21,7 +23,7 @@ struct Arguments {
     double seconds = 540;
     bool quick = false;
     double pixels = 64 * 64;
-    fs::path scenes = "scenes", cache = "build/tradeoff", folder = "bench";
+    fs::path scenes = "scenes", cache = "build/tradeoff";
     std::vector<std::string> names = {"assignment_01", "assignment_02",           "assignment_03",    "assignment_04",
                                       "assignment_05", "assignment_06",           "assignment_07",    "assignment_08",
                                       "showcase",      "bench/lamp_behind_glass", "bench/many_lights"};
@@ -51,7 +53,7 @@ Subject read_subject(const std::string& name, const Arguments& arguments, double
 }
 
 /// Rounds over all cells in random order, so that a busy minute of the machine is shared by all, until time is up.
-std::uint32_t measure(const std::vector<Subject>& subjects, std::vector<Cell>& cells, const Clock& clock, double end) {
+void measure(const std::vector<Subject>& subjects, std::vector<Cell>& cells, const Clock& clock, double end) {
     std::vector<std::size_t> order(cells.size());
     std::iota(order.begin(), order.end(), 0);
     std::mt19937 shuffle(1);
@@ -64,31 +66,46 @@ std::uint32_t measure(const std::vector<Subject>& subjects, std::vector<Cell>& c
         fmt::print(stderr, "round {} took {:.1f} s, {:.0f} of {:.0f} s are over\n", round + 1, last, clock.seconds(),
                    end);
     }
-    return round;
 }
 
-void run(const Arguments& arguments) {
+/// One line per level of each cell.
+void print(const std::vector<Subject>& subjects, const std::vector<Cell>& cells) {
+    fmt::print(
+        "scene,options,samples,renders,seconds,seconds_error,mrse,mrse_error,slope,slope_error,floor,floor_error,"
+        "reference_samples,reference_mrse\n");
+    for (const Cell& cell : cells) {
+        const Reference& reference = subjects[cell.scene].reference;
+        const CellSummary summary = summarise(cell, reference);
+        for (const LevelSummary& l : summary.levels)
+            fmt::print("{},{},{:.6g},{},{:.4g},{:.2g},{:.5g},{:.2g},{:.4f},{:.4f},{:.3g},{:.2g},{:.0f},{:.3g}\n",
+                       subjects[cell.scene].name, cell.variant.name(), l.samples, l.renders, l.seconds.value,
+                       l.seconds.error, l.mrse.value, l.mrse.error, summary.slope.value, summary.slope.error,
+                       summary.floor.value, summary.floor.error, reference.samples, reference.mrse);
+    }
+}
+
+void run(const Arguments& arguments, bool whole) {
     const Clock clock;
     const double threads = std::max(1u, std::thread::hardware_concurrency());
     const double processor_seconds = arguments.seconds * threads;
     const double scenes = static_cast<double>(arguments.names.size());
 
-    Outcome outcome;
+    std::vector<Subject> subjects;
     for (const std::string& name : arguments.names)
-        outcome.subjects.push_back(read_subject(name, arguments, processor_seconds * reference_share / scenes));
+        subjects.push_back(read_subject(name, arguments, processor_seconds * reference_share / scenes));
     // Levels have four times the samples each: all of them take 4/3 of the last.
     const double variants = static_cast<double>(all_variants().size());
-    outcome.last_level_seconds =
+    const double last_level_seconds =
         processor_seconds * (1 - reference_share - pilot_share) * 3 / 4 / (planned_rounds * scenes * variants);
     std::vector<Cell> cells;
-    for (std::size_t i = 0; i < outcome.subjects.size(); ++i)
-        for (Cell& cell : cells_of(outcome.subjects[i], i, outcome.last_level_seconds))
-            cells.push_back(std::move(cell));
+    for (std::size_t i = 0; i < subjects.size(); ++i)
+        for (Cell& cell : cells_of(subjects[i], i, last_level_seconds)) cells.push_back(std::move(cell));
     fmt::print(stderr, "{} cells after {:.0f} s\n", cells.size(), clock.seconds());
-    outcome.rounds = measure(outcome.subjects, cells, clock, arguments.seconds);
-    for (const Cell& cell : cells) outcome.cells.push_back(summarise(cell, outcome.subjects[cell.scene].reference));
-    outcome.seconds = clock.seconds();
-    write_all(outcome, arguments.folder);
+    measure(subjects, cells, clock, arguments.seconds);
+    bench::print_facts(whole, clock.seconds());
+    fmt::print("# milliseconds: {:.0f}\n# pixels: {}\n", 1e3 * last_level_seconds,
+               subjects.front().usual.width * subjects.front().usual.height);
+    print(subjects, cells);
 }
 
 }  // namespace
@@ -103,11 +120,11 @@ int main(int argc, char** argv) {
     app.add_option("--only", arguments.names, "Scenes, without .json")->delimiter(',');
     app.add_option("--scenes", arguments.scenes, "Folder of the scenes");
     app.add_option("--cache", arguments.cache, "Folder that keeps references from one run to the next");
-    app.add_option("--folder", arguments.folder, "Where TRADEOFF.md is, and plots and results go");
     CLI11_PARSE(app, argc, argv);
     if (arguments.quick) arguments.seconds /= 10;
+    const bool whole = !arguments.quick && app.count("--only") == 0;
     try {
-        run(arguments);
+        run(arguments, whole);
     } catch (const std::exception& fault) {
         fmt::print(stderr, "orrery_tradeoff: {}\n", fault.what());
         return EXIT_FAILURE;

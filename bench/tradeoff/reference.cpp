@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <span>
 #include <sstream>
 
@@ -12,7 +13,6 @@
 #include "film/error.hpp"
 #include "image/atomic_file.hpp"
 #include "image/image_file.hpp"
-#include "scene/keyed_hash.hpp"
 
 namespace fs = std::filesystem;
 
@@ -66,7 +66,7 @@ std::string bytes_of(const fs::path& file) {
 fs::path cache_file(const Scene& scene, const RenderSettings& s, const fs::path& folder) {
     const std::string key =
         fmt::format("{} {} {} {} {}", bytes_of(scene.file), s.width, s.height, s.depth, static_cast<int>(s.integrator));
-    return folder / fmt::format("{}-{:016x}.pfm", scene.file.stem().string(), siphash(key, {}));
+    return folder / fmt::format("{}-{:016x}.pfm", scene.file.stem().string(), std::hash<std::string>()(key));
 }
 
 }  // namespace

@@ -10,9 +10,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Beyond chance for the one or two hundred cells of a run, whose errors have heavier tails than a normal's.
-constexpr double standard_errors = 5;
-
 Figure mean(const std::vector<double>& values) {
     const double n = static_cast<double>(values.size());
     const double m = std::accumulate(values.begin(), values.end(), 0.0) / n;
@@ -37,8 +34,6 @@ LevelSummary summary_of(const Level& level, const Reference& reference) {
     summary.mrse.value -= reference.mrse;
     summary.mrse.error = std::hypot(summary.mrse.error, reference.mrse_error);
     summary.seconds = robust(level.seconds);
-    if (summary.mrse.value > 0) summary.efficiency = ratio({1, 0}, {summary.mrse.value, summary.mrse.error});
-    summary.efficiency = ratio(summary.efficiency, summary.seconds);
     return summary;
 }
 
@@ -83,12 +78,6 @@ double median(std::vector<double> values) {
     return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
-Figure ratio(const Figure& a, const Figure& b) {
-    const double value = a.value / b.value;
-    if (value == 0) return {0, 0};
-    return {value, value * std::hypot(a.error / a.value, b.error / b.value)};
-}
-
 Figure slope_of(const std::vector<double>& x, const std::vector<Figure>& y) {
     double weights = 0, mean_x = 0;
     std::vector<double> w;
@@ -108,22 +97,8 @@ Figure slope_of(const std::vector<double>& x, const std::vector<Figure>& y) {
     return {xy / xx, 1 / std::sqrt(xx)};
 }
 
-Figure geometric_mean(const std::vector<Figure>& ratios) {
-    double sum = 0, squares = 0;
-    const double n = static_cast<double>(ratios.size());
-    for (const Figure& r : ratios) {
-        sum += std::log(r.value) / n;
-        squares += std::pow(r.error / r.value / n, 2);
-    }
-    return {std::exp(sum), std::exp(sum) * std::sqrt(squares)};
-}
-
-bool CellSummary::biased() const { return floor.value > standard_errors * floor.error; }
-
-bool CellSummary::flattening() const { return slope.value > -0.9 && slope.value + 1 > standard_errors * slope.error; }
-
 CellSummary summarise(const Cell& cell, const Reference& reference) {
-    CellSummary summary{.scene = cell.scene, .name = cell.variant.name(), .variant = cell.variant};
+    CellSummary summary;
     for (const Level& level : cell.levels) summary.levels.push_back(summary_of(level, reference));
     summary.slope = slope_of(summary.levels);
     summary.floor = floor_of(cell.levels.back(), reference);

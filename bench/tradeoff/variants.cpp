@@ -61,7 +61,7 @@ std::vector<Option> single_options() {
             roulette_from(),
             isas(),
             setting<&RenderSettings::precision, precision_words>("--precision"),
-            {{"--adaptive", "off", evenly, 0}, {"--adaptive", "on", adaptively, 0, "off"}}};
+            {{"--adaptive", "off", evenly, 0}, {"--adaptive", "on", adaptively, 0}}};
 }
 
 }  // namespace

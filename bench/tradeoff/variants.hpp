@@ -25,7 +25,6 @@ struct Choice {
     std::string option, word;
     void (*choose)(Setup&, std::size_t word) = nullptr;  ///< puts it into a setup
     std::size_t index = 0;                               ///< of the word, for `choose`
-    std::string instead_of = {};                         ///< the word it is compared with, the default where empty
 };
 
 /// The usual setup with some choices made. No choice: the program's defaults.
