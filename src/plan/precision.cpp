@@ -32,7 +32,8 @@ std::optional<CoarsePositions> coarse_positions(const Scene& scene, Precision pr
         const double error = unit_roundoff(precision) * std::max({p.radius, c.x, c.y, c.z});
         const double distance = std::abs(glm::length(p.centre - camera.position) - p.radius);
         const double detail = std::min(smallest, distance);
-        if (error <= pixel * distance || error <= harmless * detail) continue;
+        // Less than a pixel is not seen, but from nearby, in a small picture, a pixel is most of a sphere.
+        if (error <= std::min(pixel, harmless) * distance || error <= harmless * detail) continue;
         if (!worst || error * worst->detail > worst->error * detail) worst = {p.id, p.radius, error, detail};
     }
     return worst;

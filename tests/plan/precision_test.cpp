@@ -66,6 +66,17 @@ TEST(Precision, FarAwayNothingIsCoarse) {
     EXPECT_TRUE(coarse_positions(scene, Precision::binary32)) << "through a telescope it is";
 }
 
+// Found by a fuzzer: pixels as wide as a third of the ball the camera is in, whose radius floats round by a tenth.
+TEST(Precision, FewPixelsExcuseNothingNearby) {
+    Scene scene = ball_on(1);
+    scene.settings.width = scene.settings.height = 3;
+    for (Primitive& p : scene.primitives) p.centre = {1e17, 1e17, 1e17}, p.radius = 5.5e10;
+    scene.camera.position = {1e17, 1e17, 1e17};
+    scene.camera.target = {1e17, 1e17, 1.5e17};
+    EXPECT_TRUE(coarse_positions(scene, Precision::binary32));
+    EXPECT_FALSE(coarse_positions(scene, Precision::binary64));
+}
+
 TEST(Precision, AutomaticPicksWhatIsNeeded) {
     const auto picked = [](Scene scene, Precision asked) {
         scene.settings.precision = asked;
