@@ -43,6 +43,17 @@ double squared_error(const Numbers& image, const Moments& all, double images) {
     return std::max(sum, 0.0) / static_cast<double>(image.size());
 }
 
+/// On a busy machine not even the first pass of a short `--time` may be done in time: the render is asked for again.
+RenderResult render_in_time(const Plan& plan, const RenderOptions& options) {
+    for (int tries = 1;; ++tries) {
+        try {
+            return render(plan, options);
+        } catch (const NothingInTime&) {
+            if (tries == 100) throw;
+        }
+    }
+}
+
 }  // namespace
 
 Row measure(const Scene& scene, const Case& tried, std::uint32_t renders) {
@@ -58,7 +69,7 @@ Row measure(const Scene& scene, const Case& tried, std::uint32_t renders) {
         RenderOptions options;
         options.goal = tried.goal;
         options.threads = 1;  // small images: threads would wait for each other
-        const RenderResult result = render(Plan(copy), options);
+        const RenderResult result = render_in_time(Plan(copy), options);
         Numbers& numbers = images.emplace_back();
         for (const Rgb& pixel : result.image.pixels) numbers.insert(numbers.end(), {pixel.r, pixel.g, pixel.b});
         stated.push_back(result.stats.error.relative);
