@@ -1,12 +1,12 @@
 #!/bin/sh
-# golden.sh GALLERY ORRERY SCENES OUTPUT: renders the gallery again and compares every picture with the committed one.
+# golden.sh ORRERY OUTPUT: renders the report's pictures again and compares each with the committed one.
 # The bytes are the same where nothing changed; where rounding or random numbers did, by less than the noise of two seeds.
 set -eu
 
-gallery=$1 orrery=$2 scenes=$3 output=$4
+orrery=$1 output=$2
 again=$(mktemp -d)
 trap 'rm -rf "$again"' EXIT
-"$gallery" "$scenes" "$again"
+sh "$output/pictures.sh" "$orrery" "$again" >"$again/REPORT.md"
 status=0
 for picture in "$again"/*.png; do
     name=${picture##*/}
