@@ -19,7 +19,7 @@ public:
     }
 
     /// Whether an emissive primitive carries the light. True as well when a faulty primitive might have been meant to.
-    bool carries(Name light) const { return some_carrier_unknown_ || carried_.contains(light); }
+    bool carries(std::string_view light) const { return some_carrier_unknown_ || carried_.contains(light); }
 
 private:
     enum class Type { geometric, emissive };
@@ -34,7 +34,7 @@ private:
         const Sphere* sphere = shape ? look_up(*shape, registries_.shapes, fields, report_) : nullptr;
         const Material* surface = material ? look_up(*material, registries_.materials, fields, report_) : nullptr;
         const AreaLight* light = nullptr;
-        if (type == Type::emissive) light = read_light(fields, shape ? shape->name() : std::nullopt);
+        if (type == Type::emissive) light = read_light(fields, shape ? shape->text() : std::nullopt);
         if (!type) {
             fields.ignore("light");
             some_carrier_unknown_ = true;
@@ -51,25 +51,24 @@ private:
         scene_.primitives.push_back(std::move(primitive));
     }
 
-    const AreaLight* read_light(Fields& fields, std::optional<Name> shape) {
+    const AreaLight* read_light(Fields& fields, std::optional<std::string_view> shape) {
         const auto node = fields.any("light", "the id of an area light");
         const Light* light = node ? look_up(*node, registries_.lights, fields, report_) : nullptr;
         const auto* area = light ? std::get_if<AreaLight>(light) : nullptr;
         if (!area) some_carrier_unknown_ = true;
         if (!light) return nullptr;
 
-        const Name id = *node->name();
-        const auto quoted = [&](Name name) { return in_quotes(node->text(name)); };
+        const std::string_view id = *node->text();
         if (!area) {
             fields.fault("light",
-                         fmt::format("found the point light {}, expected the id of an area light", quoted(id)));
+                         fmt::format("found the point light {}, expected the id of an area light", in_quotes(id)));
             return nullptr;
         }
         carried_.insert(id);
         if (shape && area->shape != *shape) {
             fields.fault("light",
                          fmt::format("found {}, a light of shape {}, expected one of this primitive's shape {}",
-                                     quoted(id), quoted(area->shape), quoted(*shape)));
+                                     in_quotes(id), in_quotes(area->shape), in_quotes(*shape)));
             return nullptr;
         }
         return area;
@@ -78,30 +77,31 @@ private:
     /// Materials enter the scene on first use, so that none is there that no primitive wears.
     std::uint32_t material_index(const Node& id, const Material& material) {
         const auto next = static_cast<std::uint32_t>(scene_.materials.size());
-        if (!material_indices_.insert(*id.name(), next)) return *material_indices_.find(*id.name());
-        scene_.materials.push_back(material);
-        scene_.materials.back().id = id.text(*id.name());
-        return next;
+        const auto [index, is_new] = material_indices_.try_emplace(*id.text(), next);
+        if (is_new) {
+            scene_.materials.push_back(material);
+            scene_.materials.back().id = *id.text();
+        }
+        return index->second;
     }
 
     const Registries& registries_;
     Report& report_;
     Scene& scene_;
-    NameMap material_indices_;
-    NameSet carried_;
+    std::map<std::string_view, std::uint32_t> material_indices_;
+    std::set<std::string_view> carried_;
     bool some_carrier_unknown_ = false;
 };
 
 void read_lights(const Node& list, const Registries& registries, const Primitives& primitives, Fields& owner,
                  Report& report, Scene& scene) {
-    NameSet listed;
+    std::set<std::string_view> listed;
     for (std::size_t i = 0; i < list.size(); ++i) {
         const Node node(list, i);
         const Light* light = look_up(node, registries.lights, owner, report);
         if (!light) continue;
-        const Name name = *node.name();
-        const std::string_view id = node.text(name);
-        if (!listed.insert(name)) {
+        const std::string_view id = *node.text();
+        if (!listed.insert(id).second) {
             report.add(
                 Severity::warning, node.where(),
                 fmt::format("found the light {} a second time, expected it once; it shines once", in_quotes(id)));
@@ -110,7 +110,7 @@ void read_lights(const Node& list, const Registries& registries, const Primitive
         if (const auto* point = std::get_if<PointLight>(light)) {
             scene.point_lights.push_back(*point);
             scene.point_lights.back().id = id;
-        } else if (!primitives.carries(name)) {
+        } else if (!primitives.carries(id)) {
             owner.fault_at(node,
                            fmt::format("found the area light {}, which no primitive carries, expected an emissive "
                                        "primitive with this light",

@@ -107,8 +107,8 @@ std::optional<Light> read_light(Fields& fields, const Registry<Sphere>& shapes, 
     const auto shape = fields.any("shape", "the id of a shape");
     if (!shape) return std::nullopt;
     look_up(*shape, shapes, fields, report);
-    const std::optional<Name> id = shape->name();
-    if (!power || !id || !shapes.places.find(*id)) return std::nullopt;
+    const auto id = shape->text();
+    if (!power || !id || !shapes.entries.contains(*id)) return std::nullopt;
     return AreaLight{*id, *power};
 }
 

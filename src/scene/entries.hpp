@@ -16,7 +16,7 @@ struct Sphere {
 };
 
 struct AreaLight {
-    Name shape{};  ///< a shape id
+    std::string_view shape;  ///< an id
     glm::dvec3 radiance{0};
 };
 

@@ -12,10 +12,10 @@ namespace orrery {
 namespace {
 
 /// The integer a JSON number stands for. 512.0 is one, as in JSON Schema; 0.5 and 1e30 are not.
-std::optional<std::int64_t> as_integer(const JsonValue& value) {
+std::optional<std::int64_t> as_integer(const Json& value) {
     constexpr double exact = 9007199254740992.0;  // 2^53: every integer below is a double
     if (!value.is_number()) return std::nullopt;
-    const double number = value.number();
+    const auto number = value.get<double>();
     if (std::abs(number) > exact || number != std::floor(number)) return std::nullopt;
     return static_cast<std::int64_t>(number);
 }
@@ -28,28 +28,16 @@ Fields::Fields(const Node& node, std::string_view expected, Report& report_to) :
     if (!is_object()) report_unexpected(node_, expected);
 }
 
-const JsonValue* Fields::ask(std::string_view key) {
-    for (const Known& known : known_)
-        if (known.key == key) return known.value;
-    const JsonValue* value = is_object() ? search(key) : nullptr;
-    known_.push_back({key, value});
-    if (value) ++found_;
-    return value;
-}
-
-const JsonValue* Fields::search(std::string_view key) {
-    const std::size_t size = node_.size();
-    for (std::size_t i = 0; i < size; ++i, ++next_) {
-        if (next_ >= size) next_ = 0;
-        const JsonValue& member = node_.member(next_);
-        if (node_.key(member) == key) return ++next_, &member;
-    }
-    return nullptr;
+const Json* Fields::ask(std::string_view key) {
+    if (std::ranges::find(known_, key) == known_.end()) known_.push_back(key);
+    if (!is_object()) return nullptr;
+    const auto member = node_.value().find(key);
+    return member != node_.value().end() ? &*member : nullptr;
 }
 
 template <class Expected>
-const JsonValue* Fields::require(std::string_view key, const Expected& expected) {
-    const JsonValue* value = ask(key);
+const Json* Fields::require(std::string_view key, const Expected& expected) {
+    const Json* value = ask(key);
     if (!value && is_object()) {
         report(node_.where(), fmt::format("found no {}, expected {}", in_quotes(key), expected()));
     }
@@ -57,13 +45,13 @@ const JsonValue* Fields::require(std::string_view key, const Expected& expected)
 }
 
 std::optional<double> Fields::number(std::string_view key, const Range& range) {
-    const JsonValue* value = require(key, [&] { return describe(range); });
+    const Json* value = require(key, [&] { return describe(range); });
     return value ? number_at(Node(node_, key, *value), range) : std::nullopt;
 }
 
 std::optional<glm::dvec3> Fields::triple(std::string_view key, const Range& range) {
     constexpr std::string_view expected = "a list of 3 numbers";
-    const JsonValue* value = require(key, [&] { return expected; });
+    const Json* value = require(key, [&] { return expected; });
     if (!value) return std::nullopt;
     const Node node(node_, key, *value);
     if (!node.is_list() || node.size() != 3) {
@@ -77,14 +65,14 @@ std::optional<glm::dvec3> Fields::triple(std::string_view key, const Range& rang
 }
 
 std::optional<std::uint32_t> Fields::integer(std::string_view key, std::uint32_t low, std::uint32_t high) {
-    const JsonValue* value = require(key, [] { return "an integer"; });
+    const Json* value = require(key, [] { return "an integer"; });
     return value ? integer_at(Node(node_, key, *value), low, high) : std::nullopt;
 }
 
 std::optional<std::array<std::uint32_t, 2>> Fields::integer_pair(std::string_view key, std::uint32_t low,
                                                                  std::uint32_t high) {
     constexpr std::string_view expected = "a list of 2 integers";
-    const JsonValue* value = require(key, [&] { return expected; });
+    const Json* value = require(key, [&] { return expected; });
     if (!value) return std::nullopt;
     const Node node(node_, key, *value);
     if (!node.is_list() || node.size() != 2) {
@@ -95,15 +83,10 @@ std::optional<std::array<std::uint32_t, 2>> Fields::integer_pair(std::string_vie
     return x && y ? std::optional(std::array{*x, *y}) : std::nullopt;
 }
 
-std::optional<Name> Fields::name(std::string_view key, std::string_view expected) {
-    const std::optional<Node> node = any(key, expected);
-    if (node && !node->name()) report_unexpected(*node, expected);
-    return node ? node->name() : std::nullopt;
-}
-
 std::optional<std::string_view> Fields::text(std::string_view key, std::string_view expected) {
-    const std::optional<Name> found = name(key, expected);
-    return found ? std::optional(node_.text(*found)) : std::nullopt;
+    const std::optional<Node> node = any(key, expected);
+    if (node && !node->text()) report_unexpected(*node, expected);
+    return node ? node->text() : std::nullopt;
 }
 
 std::optional<Node> Fields::list(std::string_view key, std::string_view expected) {
@@ -116,21 +99,15 @@ std::optional<Node> Fields::list(std::string_view key, std::string_view expected
 }
 
 std::optional<Node> Fields::any(std::string_view key, std::string_view expected) {
-    const JsonValue* value = require(key, [&] { return expected; });
+    const Json* value = require(key, [&] { return expected; });
     return value ? std::optional(Node(node_, key, *value)) : std::nullopt;
 }
 
 void Fields::finish() {
-    if (!is_object() || found_ == node_.size()) return;
-    std::vector<std::string_view> known, unknown;
-    for (const Known& asked : known_) known.push_back(asked.key);
-    for (std::size_t i = 0; i < node_.size(); ++i) {
-        const std::string_view key = node_.key(node_.member(i));
-        if (std::find(known.begin(), known.end(), key) == known.end()) unknown.push_back(key);
-    }
-    std::sort(unknown.begin(), unknown.end());
-    for (const std::string_view key : unknown) {
-        const std::string_view near = report_.spelling().likely(key, known);
+    if (!is_object()) return;
+    for (const auto& [key, value] : node_.value().get_ref<const Json::object_t&>()) {
+        if (std::ranges::find(known_, key) != known_.end()) continue;
+        const std::string_view near = report_.spelling().likely(key, known_);
         warn(key, fmt::format("found the unknown key {}, which is ignored{}", in_quotes(key),
                               near.empty() ? "" : fmt::format("; did you mean {}?", in_quotes(near))));
     }
@@ -146,18 +123,18 @@ void Fields::warn(std::string_view key, std::string message) {
 
 std::optional<std::size_t> Fields::choice_index(std::string_view key, std::span<const std::string_view> words) {
     const auto expected = [&] { return fmt::format("one of \"{}\"", fmt::join(words, "\", \"")); };
-    const JsonValue* value = require(key, expected);
+    const Json* value = require(key, expected);
     if (!value) return std::nullopt;
     const Node node(node_, key, *value);
-    if (!node.name()) {
+    const auto word = node.text();
+    if (!word) {
         report_unexpected(node, expected());
         return std::nullopt;
     }
-    const std::string_view word = node.text(*node.name());
-    const auto found = std::find(words.begin(), words.end(), word);
+    const auto found = std::ranges::find(words, *word);
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-    const std::string_view near = report_.spelling().nearest(word, words);
-    fault(key, fmt::format("found {}, expected {}{}", in_quotes(word), expected(),
+    const std::string_view near = report_.spelling().nearest(*word, words);
+    fault(key, fmt::format("found {}, expected {}{}", in_quotes(*word), expected(),
                            near.empty() ? "" : fmt::format("; the nearest is {}", in_quotes(near))));
     return std::nullopt;
 }
@@ -167,7 +144,7 @@ std::optional<double> Fields::number_at(const Node& node, const Range& range) {
         report_unexpected(node, describe(range));
         return std::nullopt;
     }
-    const double number = node.value().number();
+    const auto number = node.value().get<double>();
     if (const auto expected = expectation(range, number)) {
         report_unexpected(node, *expected);
         return std::nullopt;

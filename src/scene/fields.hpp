@@ -46,7 +46,6 @@ public:
     std::optional<std::uint32_t> integer(std::string_view key, std::uint32_t low, std::uint32_t high);
     std::optional<std::array<std::uint32_t, 2>> integer_pair(std::string_view key, std::uint32_t low,
                                                              std::uint32_t high);
-    std::optional<Name> name(std::string_view key, std::string_view expected);
     std::optional<std::string_view> text(std::string_view key, std::string_view expected);
     std::optional<Node> list(std::string_view key, std::string_view expected);
     std::optional<Node> any(std::string_view key, std::string_view expected);
@@ -73,17 +72,10 @@ public:
     void warn(std::string_view key, std::string message);
 
 private:
-    /// A key that was asked for, and its value where it has one.
-    struct Known {
-        std::string_view key;
-        const JsonValue* value;
-    };
-
-    const JsonValue* ask(std::string_view key);
-    const JsonValue* search(std::string_view key);
+    const Json* ask(std::string_view key);
     /// The value of a key that has to be there; `expected()` says what it should be where it is not.
     template <class Expected>
-    const JsonValue* require(std::string_view key, const Expected& expected);
+    const Json* require(std::string_view key, const Expected& expected);
     std::optional<std::size_t> choice_index(std::string_view key, std::span<const std::string_view> words);
     std::optional<double> number_at(const Node& node, const Range& range);
     std::optional<std::uint32_t> integer_at(const Node& node, std::uint32_t low, std::uint32_t high);
@@ -93,9 +85,7 @@ private:
     Node node_;
     Report& report_;
     Severity severity_ = Severity::error;
-    std::vector<Known> known_;
-    std::size_t found_ = 0;  ///< how many of known_ have a value
-    std::size_t next_ = 0;   ///< the member behind the last one found: files list fields in the order they are read
+    std::vector<std::string_view> known_;  ///< the keys asked for
 };
 
 }  // namespace orrery

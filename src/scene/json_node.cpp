@@ -29,25 +29,11 @@ std::string Node::where() const {
 std::string Node::where(std::string_view key) const { return where() + '/' + pointer_token(key); }
 
 std::string Node::describe() const {
-    switch (value_->kind) {
-        case JsonKind::text:
-            return in_quotes(text(value_->name()));
-        case JsonKind::boolean:
-            return value_->bits != 0 ? "true" : "false";
-        case JsonKind::negative:
-            return fmt::format("{}", static_cast<std::int64_t>(value_->bits));
-        case JsonKind::natural:
-            return fmt::format("{}", value_->bits);
-        case JsonKind::real:
-            return fmt::format("{}", value_->number());
-        case JsonKind::list:
-            return fmt::format("a list of {}", size());
-        case JsonKind::object:
-            return "an object";
-        case JsonKind::null:
-            break;
-    }
-    return "null";
+    if (const auto word = text()) return in_quotes(*word);
+    if (is_list()) return fmt::format("a list of {}", size());
+    if (is_object()) return "an object";
+    // The library writes a whole number of type double with ".0".
+    return value_->is_number_float() ? fmt::format("{}", value_->get<double>()) : value_->dump();
 }
 
 }  // namespace orrery

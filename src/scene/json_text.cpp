@@ -3,17 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "scene/json_tree_builder.hpp"
-#include "scene/quick_json.hpp"
 #include "system/printable.hpp"
 
 namespace orrery {
 namespace {
-
-using Json = nlohmann::json;
 
 /// "line:column" of a byte, both from 1. Columns count characters, as editors do: continuation bytes are not counted.
 std::string line_and_column(std::string_view text, std::size_t byte) {
@@ -35,30 +32,32 @@ std::string_view without_preamble(std::string_view what) {
     return what;
 }
 
-/// Names the faults. This parser says what it found and what it expected, and it takes four times as long as the quick
-/// one: it reads what that one refused.
-class Explainer final : public nlohmann::json_sax<Json> {
+/// Builds the tree from the parser's events. The library's own builder knows neither repeated keys nor a limit to
+/// nesting, and says where a fault is only in some of its messages.
+class Builder final : public nlohmann::json_sax<Json> {
 public:
-    Explainer(std::string_view text, Report& report) : text_(text), report_(report) {}
+    Builder(std::string_view text, Report& report) : text_(text), report_(report) {}
 
-    JsonTree take() { return builder_.take(); }
+    Json take() { return std::move(root_); }
 
-    bool null() override { return builder_.null(), true; }
-    bool boolean(bool value) override { return builder_.boolean(value), true; }
-    bool number_integer(number_integer_t value) override { return builder_.negative(value), true; }
-    bool number_unsigned(number_unsigned_t value) override { return builder_.natural(value), true; }
-    bool number_float(number_float_t value, const string_t&) override { return builder_.real(value), true; }
-    bool string(string_t& value) override { return builder_.text(value), true; }
+    bool null() override { return put(nullptr), true; }
+    bool boolean(bool value) override { return put(value), true; }
+    bool number_integer(number_integer_t value) override { return put(value), true; }
+    bool number_unsigned(number_unsigned_t value) override { return put(value), true; }
+    bool number_float(number_float_t value, const string_t&) override { return put(value), true; }
+    bool string(string_t& value) override { return put(std::move(value)), true; }
     bool binary(binary_t&) override { return false; }  // not a part of JSON text
-    bool start_object(std::size_t) override { return builder_.open_object() || too_deep(); }
-    bool start_array(std::size_t) override { return builder_.open_list() || too_deep(); }
-    bool end_object() override { return builder_.close(), true; }
-    bool end_array() override { return builder_.close(), true; }
+    bool start_object(std::size_t) override { return open(Json::object()); }
+    bool start_array(std::size_t) override { return open(Json::array()); }
+    bool end_object() override { return open_.pop_back(), true; }
+    bool end_array() override { return open_.pop_back(), true; }
 
     bool key(string_t& name) override {
-        if (!builder_.key(name)) {
-            report_.add(Severity::error, builder_.where(), "found this key a second time, expected it once per object");
-        }
+        Open& object = open_.back();
+        const auto [member, is_new] = object.value->get_ref<Json::object_t&>().try_emplace(std::move(name));
+        object.key = &member->first;
+        object.member = &member->second;
+        if (!is_new) report_.add(Severity::error, where(), "found this key a second time, expected it once per object");
         return true;
     }
 
@@ -75,21 +74,48 @@ public:
     }
 
 private:
-    bool too_deep() {
+    /// A list or an object whose end has not come.
+    struct Open {
+        Json* value;
+        const std::string* key = nullptr;  ///< object: of the member to come
+        Json* member = nullptr;            ///< object: where that goes
+    };
+
+    /// Puts a value into the innermost list or object. Returns where it is: for as long as that gets no other.
+    Json* put(Json value) {
+        if (open_.empty()) return &(root_ = std::move(value));
+        if (Json* const member = open_.back().member) return &(*member = std::move(value));
+        return &open_.back().value->emplace_back(std::move(value));
+    }
+
+    bool open(Json value) {
+        if (open_.size() < deepest_nesting) return open_.push_back({put(std::move(value))}), true;
         report_.add(
-            Severity::error, builder_.where(),
+            Severity::error, where(),
             fmt::format("found more than {0} levels of lists and objects, expected at most {0}", deepest_nesting));
         return false;
     }
 
+    /// RFC 6901 pointer to the value to come.
+    std::string where() const {
+        std::string pointer;
+        for (const Open& open : open_) {
+            // The last element of an outer list is the next level; of the innermost it came before.
+            const std::size_t elements = open.value->size() - (&open == &open_.back() ? 0 : 1);
+            pointer += '/' + (open.key ? pointer_token(*open.key) : std::to_string(elements));
+        }
+        return pointer;
+    }
+
     std::string_view text_;
     Report& report_;
-    JsonTreeBuilder builder_;
+    Json root_;
+    std::vector<Open> open_;  ///< outermost first
 };
 
 }  // namespace
 
-std::optional<JsonTree> parse_json(std::string_view text, Report& report) {
+std::optional<Json> parse_json(std::string_view text, Report& report) {
     // The library takes a NUL for the end of the text and would not look at what follows. No JSON holds one.
     if (const auto nul = text.find('\0'); nul != text.npos) {
         report.add(Severity::error, line_and_column(text, nul), "found a NUL byte, expected JSON text in UTF-8");
@@ -101,10 +127,9 @@ std::optional<JsonTree> parse_json(std::string_view text, Report& report) {
                    "found the end of the text and nothing before it, expected a scene in JSON");
         return std::nullopt;
     }
-    if (std::optional<JsonTree> tree = parse_quickly(text)) return tree;
-    Explainer explainer(text, report);
-    if (!Json::sax_parse(text.begin(), text.end(), &explainer)) return std::nullopt;
-    return explainer.take();
+    Builder builder(text, report);
+    if (!Json::sax_parse(text.begin(), text.end(), &builder)) return std::nullopt;
+    return builder.take();
 }
 
 }  // namespace orrery

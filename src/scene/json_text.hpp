@@ -1,17 +1,22 @@
 // Bytes -> JSON tree: syntax, nesting and repeated keys.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
-#include "scene/json_tree.hpp"
+#include "scene/json_node.hpp"
 #include "scene/report.hpp"
 
 namespace orrery {
 
+/// Deepest nesting of lists and objects accepted. A scene needs five; the limit keeps whatever walks the tree
+/// recursively within the stack.
+inline constexpr std::size_t deepest_nesting = 100;
+
 /// The value that `text` spells. Absent after a syntax error (reported as "line:column", columns in characters), a
 /// number beyond the range of a double, or nesting too deep. A key given twice in one object is an error, too, but
 /// reading goes on with the last of its values.
-std::optional<JsonTree> parse_json(std::string_view text, Report& report);
+std::optional<Json> parse_json(std::string_view text, Report& report);
 
 }  // namespace orrery

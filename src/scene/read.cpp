@@ -23,7 +23,10 @@
 namespace orrery {
 namespace {
 
-Scene read_root(const JsonTree& tree, const std::filesystem::path& file, const std::filesystem::path& folder,
+/// What a scene may hold as text. The tree takes ten times as much; large data is no business of JSON.
+constexpr std::uint64_t largest_file = std::uint64_t{1} << 31;
+
+Scene read_root(const Json& tree, const std::filesystem::path& file, const std::filesystem::path& folder,
                 Report& report) {
     Scene scene;
     scene.file = file;
@@ -44,7 +47,7 @@ Scene read_root(const JsonTree& tree, const std::filesystem::path& file, const s
     return scene;
 }
 
-ReadResult resolved(const std::optional<JsonTree>& tree, const std::filesystem::path& file,
+ReadResult resolved(const std::optional<Json>& tree, const std::filesystem::path& file,
                     const std::filesystem::path& folder, Report& report) {
     std::optional<Scene> scene;
     if (tree) scene = read_root(*tree, file, folder, report);
@@ -91,7 +94,7 @@ bool read_text(const FileDescriptor& input, Text& text, Report& report) {
     struct stat status = {};
     if (!input.is_open() || ::fstat(input.number(), &status) != 0)
         return fail(fmt::format("cannot open this file: {}", std::strerror(errno)));
-    const std::uint64_t most = std::min<std::uint64_t>(largest_json, memory_limit());
+    const std::uint64_t most = std::min(largest_file, memory_limit());
     constexpr std::size_t block = std::size_t{1} << 20;
     if (S_ISREG(status.st_mode)) {
         // A file may claim any size without taking it; what it would take to read it is known.
@@ -113,7 +116,7 @@ bool read_text(const FileDescriptor& input, Text& text, Report& report) {
 }
 
 /// The tree has all there is in the text, which is gone on return: the scene takes its place in memory.
-std::optional<JsonTree> parse_file(const std::filesystem::path& file, Report& report) {
+std::optional<Json> parse_file(const std::filesystem::path& file, Report& report) {
     const FileDescriptor input(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
     Text text;
     if (!read_text(input, text, report)) return std::nullopt;

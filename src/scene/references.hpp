@@ -1,19 +1,22 @@
 // Which registry entries the composition refers to.
 #pragma once
 
-#include "scene/json_tree.hpp"
+#include <set>
+#include <string_view>
+
+#include "scene/json_node.hpp"
 
 namespace orrery {
 
 /// Ids by registry. An entry whose id is here takes part in the image and must be sound; any other may hold anything
 /// at the price of a warning.
 struct References {
-    NameSet cameras, materials, shapes, lights;
+    std::set<std::string_view> cameras, materials, shapes, lights;
 };
 
 /// Collects the ids in silence (the shape of an area light is among them through the primitive that carries it),
 /// skipping over whatever is malformed: the composition's reader reports that. It runs before the registries are read
 /// because it decides the severity of their faults.
-References find_references(const JsonTree& tree);
+References find_references(const Json& root);
 
 }  // namespace orrery

@@ -41,8 +41,8 @@ void read_output(Fields& fields, const std::filesystem::path& folder, RenderSett
 void read_roulette(Fields& fields, RenderSettings& settings) {
     if (!fields.has("roulette")) return;
     const auto node = fields.any("roulette", "\"on\" or \"off\"");
-    if (node->value().kind == JsonKind::boolean) {
-        settings.roulette = node->value().bits != 0;
+    if (node->value().is_boolean()) {
+        settings.roulette = node->value().get<bool>();
     } else if (const auto word = fields.choice<bool>("roulette", {{"on", true}, {"off", false}})) {
         settings.roulette = *word;
     }
