@@ -9,7 +9,7 @@
 #include "bench/coverage/coverage.hpp"
 #include "bench/results.hpp"
 #include "bench/tradeoff/measure.hpp"
-#include "cli/words.hpp"
+#include "scene/settings.hpp"
 
 namespace fs = std::filesystem;
 using namespace orrery;
@@ -39,10 +39,13 @@ void run(const Arguments& arguments, bool whole) {
     }
     bench::print_facts(whole, seconds());
     fmt::print("scene,side,estimator,way,renders,samples,made,stated,inside,above,below,at_least,width\n");
-    for (const Row& row : rows)
+    for (const Row& row : rows) {
+        RenderSettings settings;
+        settings.estimator = row.tried.estimator;
         fmt::print("{},{},{},{},{},{:.4g},{:.5g},{:.5g},{},{},{},{},{:.4g}\n", row.tried.scene, row.tried.side,
-                   word_for(estimator_words, row.tried.estimator), row.tried.way(), row.renders, row.samples, row.made,
+                   text_of(setting("estimator"), settings), row.tried.way(), row.renders, row.samples, row.made,
                    row.stated, row.inside, row.above, row.below, row.open, row.width);
+    }
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/words.hpp"
+#include "scene/settings.hpp"
 
 namespace orrery::tradeoff {
 
@@ -12,63 +12,51 @@ namespace {
 /// The choices an option offers, without the default.
 using Option = std::vector<Choice>;
 
-/// An option of RenderSettings: every word of its table that is not the default.
-template <auto field, const auto& words>
-Option setting(const char* option) {
+/// Of a setting: every word that is not the default, or these numbers.
+Option option_of(const Setting& setting, const std::vector<std::uint32_t>& numbers = {}) {
     Option choices;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (words[i].value == RenderSettings{}.*field) continue;
-        const auto choose = [](Setup& setup, std::size_t word) { setup.settings.*field = words[word].value; };
-        choices.push_back({option, std::string(words[i].text), choose, i});
-    }
+    const auto add = [&](std::uint32_t value) {
+        if (setting.member.get(RenderSettings{})[0] == value) return;
+        const auto choose = [&setting, value](Setup& setup) { setting.member.set(setup.settings, {value}); };
+        choices.push_back({"--" + std::string(setting.option), text_of(setting, {value}), choose});
+    };
+    for (std::uint32_t word = 0; word < setting.words.size(); ++word) add(word);
+    for (const std::uint32_t number : numbers) add(number);
     return choices;
 }
 
-/// Options that say how light is sampled: their effects depend on each other, so that all combinations are tried.
-std::vector<Option> crossed_options() {
-    return {setting<&RenderSettings::transport, transport_words>("--transport"),
-            setting<&RenderSettings::light_sampling, light_sampling_words>("--light-sampling"),
-            setting<&RenderSettings::estimator, estimator_words>("--estimator")};
-}
+/// Settings that say how light is sampled: their effects depend on each other, so that all combinations are tried.
+constexpr std::string_view crossed[] = {"transport", "light-sampling", "estimator"};
 
 Option isas() {
     Option choices;
     for (const Isa isa : all_isas) {
         if (!isa_supported(isa) || isa == best_isa()) continue;
-        const auto choose = [](Setup& setup, std::size_t word) { setup.isa = all_isas[word]; };
-        choices.push_back({"--isa", std::string(isa_name(isa)), choose, static_cast<std::size_t>(isa)});
+        choices.push_back({"--isa", std::string(isa_name(isa)), [isa](Setup& setup) { setup.isa = isa; }});
     }
     return choices;
 }
 
-Option roulette_from() {
-    Option choices;
-    for (const std::uint32_t from : {0u, 4u}) {
-        const auto choose = [](Setup& setup, std::size_t n) {
-            setup.settings.roulette_from = static_cast<std::uint32_t>(n);
-        };
-        choices.push_back({"--roulette-from", std::to_string(from), choose, from});
-    }
-    return choices;
-}
-
-/// Options that are tried one by one.
+/// Options that are tried one by one: all other settings that change no expectation, and what is no setting.
 std::vector<Option> single_options() {
-    const auto evenly = [](Setup& setup, std::size_t) { setup.taking = Taking::in_passes; };
-    const auto adaptively = [](Setup& setup, std::size_t) { setup.taking = Taking::adaptively; };
-    return {setting<&RenderSettings::light_choice, light_choice_words>("--light-choice"),
-            setting<&RenderSettings::roulette, switch_words>("--roulette"),
-            roulette_from(),
-            isas(),
-            setting<&RenderSettings::precision, precision_words>("--precision"),
-            {{"--adaptive", "off", evenly, 0}, {"--adaptive", "on", adaptively, 0}}};
+    const auto evenly = [](Setup& setup) { setup.taking = Taking::in_passes; };
+    const auto adaptively = [](Setup& setup) { setup.taking = Taking::adaptively; };
+    std::vector<Option> options;
+    for (const Setting& setting : all_settings()) {
+        if (!setting.same_expectation || std::ranges::count(crossed, setting.option) > 0) continue;
+        const bool from = setting.option == "roulette-from";
+        options.push_back(from ? option_of(setting, {0, 4}) : option_of(setting));
+    }
+    options.push_back(isas());
+    options.push_back({{"--adaptive", "off", evenly}, {"--adaptive", "on", adaptively}});
+    return options;
 }
 
 }  // namespace
 
 Setup Variant::setup(const RenderSettings& usual) const {
     Setup setup{.settings = usual};
-    for (const Choice& choice : choices) choice.choose(setup, choice.index);
+    for (const Choice& choice : choices) choice.choose(setup);
     return setup;
 }
 
@@ -84,9 +72,9 @@ bool Variant::chooses(const std::string& option) const {
 
 std::vector<Variant> all_variants() {
     std::vector<Variant> variants = {{}};
-    for (const Option& option : crossed_options()) {
+    for (const std::string_view name : crossed) {
         const std::size_t before = variants.size();
-        for (const Choice& choice : option) {
+        for (const Choice& choice : option_of(setting(name))) {
             for (std::size_t i = 0; i < before; ++i) {
                 Variant variant = variants[i];
                 variant.choices.push_back(choice);

@@ -1,6 +1,7 @@
 // The ways to render a scene that are compared: the options that trade accuracy for time, and combinations of them.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,7 @@ struct Setup {
 /// One word of one option, as on the command line: {"--transport", "nee"}.
 struct Choice {
     std::string option, word;
-    void (*choose)(Setup&, std::size_t word) = nullptr;  ///< puts it into a setup
-    std::size_t index = 0;                               ///< of the word, for `choose`
+    std::function<void(Setup&)> choose = {};  ///< puts it into a setup
 };
 
 /// The usual setup with some choices made. No choice: the program's defaults.
@@ -40,7 +40,8 @@ struct Variant {
 };
 
 /// The defaults first; then all combinations of the options whose effects depend on each other; then each other option
-/// by itself. An option that the library's settings gain is one row in variants.cpp.
+/// by itself. A setting of words that changes no expectation is among them without further
+/// ado; of one of numbers variants.cpp says which to try.
 std::vector<Variant> all_variants();
 
 /// What the scene says to compute, at `pixels` pixels or about, as the program would by default: whatever the scene

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <limits>
 #include <sstream>
 
 #include "cli/compare_arguments.hpp"
@@ -21,23 +20,7 @@
 namespace orrery {
 namespace {
 
-constexpr std::uint32_t any = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t most_threads = 1024;
-
-template <class Value, std::size_t count>
-void add_choice(CLI::App& app, const char* name, const Words<Value, count>& words, const std::string& help,
-                std::optional<Value>& choice) {
-    add_option(app, name, alternatives(words), help, [&](const std::string& text) {
-        choice = parse_word(text, words);
-    })->group("Method");
-}
-
-void add_number(CLI::App& app, const char* name, const char* group, const std::string& help,
-                std::optional<std::uint32_t>& number, std::uint32_t low, std::uint32_t high) {
-    add_option(app, name, "N", help, [&number, low, high](const std::string& text) {
-        number = parse_integer(text, low, high);
-    })->group(group);
-}
 
 void add_scene(CLI::App& app, Arguments& arguments) {
     add_option(app, "SCENE", "FILE", "The scene to read, a JSON file",
@@ -57,25 +40,21 @@ void add_outputs(CLI::App& app, Arguments& arguments) {
         ->group("Image");
 }
 
-void add_image(CLI::App& app, Overrides& overrides) {
-    const std::string scene = " (default: the scene's)";
-    add_option(app, "--size", "WxH", "Image size in pixels; the camera's view stays as it is" + scene,
-               [&](const std::string& text) { overrides.size = parse_size(text); })
-        ->group("Image");
-    add_number(app, "--spp", "Image",
-               "Samples per pixel; more take longer and leave less noise. Stratified takes the square number "
-               "below; sobol is at its best with powers of two" +
-                   scene,
-               overrides.samples, 1, any);
-    add_number(app, "--seed", "Image",
-               "Another seed is another noise; the same one, the same file (default: the scene's, else 0)",
-               overrides.seed, 0, any);
-    add_option(
-        app, "--tonemap", alternatives(tonemap_words),
-        "How radiance becomes 8 bit: I/(1+I), I/max(I), or I cut off at 1 (default: the scene's, else sigmoid; for "
-        "depth images none)",
-        [&](const std::string& text) { overrides.tonemap = parse_word(text, tonemap_words); })
-        ->group("Image");
+void add_settings(CLI::App& app, Overrides& overrides) {
+    for (const Setting& setting : all_settings()) {
+        const std::string label = setting.kind == SettingKind::word     ? expected_text(setting)
+                                  : setting.kind == SettingKind::number ? "N"
+                                                                        : "WxH";
+        const std::string other = setting.required ? "" : ", else " + text_of(setting, RenderSettings{});
+        add_option(app, "--" + std::string(setting.option), label,
+                   fmt::format("{} (default: the scene's{})", setting.meaning, other),
+                   [&](const std::string& text) {
+                       const auto value = value_of(setting, text);
+                       if (!value) throw unexpected(text, expected_text(setting));
+                       overrides[&setting] = *value;
+                   })
+            ->group(std::string(setting.group));
+    }
 }
 
 void add_stops(CLI::App& app, Arguments& arguments) {
@@ -88,40 +67,11 @@ void add_stops(CLI::App& app, Arguments& arguments) {
                "Render what fits into this, such as 30s, 2m or 500ms; another run gives another image",
                [&](const std::string& text) { arguments.seconds = parse_duration(text); })
         ->group(group);
-    add_option(app, "--adaptive", alternatives(switch_words),
+    add_option(app, "--adaptive", "on|off",
                "Take more samples where the error is larger; without a stop of this group there is none to adapt to "
                "(default: on)",
-               [&](const std::string& text) { arguments.adaptive = parse_word(text, switch_words); })
+               [&](const std::string& text) { arguments.adaptive = parse_word(text, on_off) == 0; })
         ->group(group);
-}
-
-void add_method(CLI::App& app, Overrides& overrides) {
-    add_choice(app, "--integrator", integrator_words,
-               "Path tracing, Whitted ray tracing, or distances (default: the scene's)", overrides.integrator);
-    add_number(app, "--depth", "Method",
-               "How often light may be scattered between lamp and eye; at most 20 for wrt (default: the scene's)",
-               overrides.depth, 0, any);
-    add_choice(
-        app, "--estimator", estimator_words,
-        "How a pixel's samples are spread: anyhow, one in each cell of a grid, or evenly in every decision of a path "
-        "(default: the scene's, else stratified)",
-        overrides.estimator);
-    add_choice(app, "--transport", transport_words,
-               "How paths find area lights: by chance, by aiming at them, or by both, weighted (default: the scene's, "
-               "else mis)",
-               overrides.transport);
-    add_choice(app, "--light-sampling", light_sampling_words,
-               "Aim at a lamp's whole surface, or at the cone it fills (default: the scene's, else cone)",
-               overrides.light_sampling);
-    add_choice(app, "--light-choice", light_choice_words,
-               "Aim at all lamps from everywhere, or each time at one of them, any or rather a powerful one (default: "
-               "the scene's, else all)",
-               overrides.light_choice);
-    add_choice(app, "--roulette", switch_words, "End dim paths early, by lot (default: the scene's, else on)",
-               overrides.roulette);
-    add_number(app, "--roulette-from", "Method",
-               "So many scattering events of a path are never followed by roulette (default: the scene's, else 8)",
-               overrides.roulette_from, 0, any);
 }
 
 void add_machine(CLI::App& app, Arguments& arguments) {
@@ -132,10 +82,6 @@ void add_machine(CLI::App& app, Arguments& arguments) {
     add_option(app, "--isa", "auto|scalar|sse2|avx2|avx512",
                "Instruction set (default: auto, the best this machine has)",
                [&](const std::string& text) { arguments.isa = parse_isa(text); })
-        ->group(group);
-    add_option(app, "--precision", alternatives(precision_words),
-               "Number type to compute in; auto is float where that is good enough for the scene (default: auto)",
-               [&](const std::string& text) { arguments.overrides.precision = parse_word(text, precision_words); })
         ->group(group);
     add_option(app, "--wave-size", "N",
                "For experts: samples traced together per thread (default: what fits its cache)",
@@ -227,9 +173,8 @@ std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv
     CLI::App& render = *app.add_subcommand("render", "Render a scene to an image");
     add_scene(render, arguments);
     add_outputs(render, arguments);
-    add_image(render, arguments.overrides);
+    add_settings(render, arguments.overrides);
     add_stops(render, arguments);
-    add_method(render, arguments.overrides);
     add_machine(render, arguments);
     add_reports(render, arguments);
     add_quiet(render, arguments);
@@ -237,9 +182,8 @@ std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv
 
     CLI::App& info = *app.add_subcommand("info", "Show how a scene would be rendered, and why so");
     add_scene(info, arguments);
-    add_image(info, arguments.overrides);
+    add_settings(info, arguments.overrides);
     add_stops(info, arguments);
-    add_method(info, arguments.overrides);
     add_machine(info, arguments);
     add_quiet(info, arguments);
     info.footer(fmt::format(info_example, typed));
@@ -267,9 +211,10 @@ std::variant<Arguments, Answer> read_arguments(int argc, const char* const* argv
 }
 
 Goal goal_of(const Arguments& arguments) {
+    const auto samples = arguments.overrides.find(&setting("spp"));
     const Goal goal{.error = arguments.error.value_or(0),
                     .seconds = arguments.seconds.value_or(0),
-                    .samples = arguments.overrides.samples.value_or(0),
+                    .samples = samples != arguments.overrides.end() ? samples->second[0] : 0,
                     .adaptive = arguments.adaptive.value_or(true)};
     if (arguments.adaptive && !goal.asked())
         throw UsageError("--adaptive: found no stop to adapt to, expected --error or --time beside it");

@@ -3,19 +3,23 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "cli/overrides.hpp"
 #include "kernels/isa.hpp"
+#include "scene/settings.hpp"
 #include "wavefront/goal.hpp"
 #include "worlds/world.hpp"
 
 namespace orrery {
 
 enum class Command { render, info, generate, compare };
+
+/// What the command line says instead of the scene file.
+using Overrides = std::map<const Setting*, SettingValue>;
 
 /// What `orrery generate` is to write, and where.
 struct Generation {

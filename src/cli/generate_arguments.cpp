@@ -1,6 +1,7 @@
 #include "cli/generate_arguments.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <limits>
 
@@ -30,8 +31,10 @@ constexpr const char* example =
 }  // namespace
 
 void add_generation(CLI::App& app, Generation& generation) {
-    add_option(app, "KIND", alternatives(world_words), "What world to make",
-               [&](const std::string& text) { generation.kind = parse_word(text, world_words); })
+    add_option(app, "KIND", fmt::format("{}", fmt::join(worlds::kind_names, "|")), "What world to make",
+               [&](const std::string& text) {
+                   generation.kind = static_cast<worlds::Kind>(parse_word(text, worlds::kind_names));
+               })
         ->required()
         ->group("Scene");
     add_option(app, "--spheres", "N", "How many spheres, at most ten million",

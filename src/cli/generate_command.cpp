@@ -3,7 +3,6 @@
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/standard_streams.hpp"
-#include "cli/words.hpp"
 #include "image/atomic_file.hpp"
 #include "worlds/write_world.hpp"
 
@@ -12,7 +11,7 @@ namespace orrery {
 int generate_command(const Arguments& arguments) {
     const Generation& g = arguments.generation;
     const worlds::World world = worlds::make_world(g.kind, g.spheres, g.seed);
-    const std::string_view name = word_for(world_words, g.kind);
+    const std::string_view name = worlds::kind_names[static_cast<std::size_t>(g.kind)];
     if (!g.output) {
         worlds::write_world(world, g.spheres, name, print_result);
         return exit_code::done;

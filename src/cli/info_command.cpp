@@ -6,10 +6,9 @@
 #include "cli/exit_code.hpp"
 #include "cli/standard_streams.hpp"
 #include "cli/values.hpp"
-#include "cli/words.hpp"
 #include "plan/plan.hpp"
-#include "scene/counted.hpp"
 #include "scene/image_memory.hpp"
+#include "scene/settings.hpp"
 #include "system/printable.hpp"
 #include "wavefront/wave_storage.hpp"
 
@@ -30,23 +29,10 @@ std::string samples_text(const Plan& plan, const Goal& goal) {
         return text + (goal.adaptive ? ", adaptive" : ", the same for all pixels");
     }
     const RenderSettings& settings = plan.settings();
-    std::string text = fmt::format("{} per pixel, {}", plan.samples(), word_for(estimator_words, settings.estimator));
+    std::string text = fmt::format("{} per pixel, {}", plan.samples(), text_of(setting("estimator"), settings));
     if (settings.estimator == Estimator::stratified) text += fmt::format(" {} x {}", plan.strata(), plan.strata());
     if (plan.samples() != settings.samples) text += fmt::format(" ({} asked)", settings.samples);
     return text;
-}
-
-std::string method_text(const RenderSettings& s) {
-    std::string text(word_for(integrator_words, s.integrator));
-    if (s.integrator == Integrator::depth) return text;
-    text += fmt::format(", depth {}", s.depth);
-    if (s.integrator == Integrator::path_tracing) {
-        text += fmt::format(", transport {}, light choice {}, roulette {}", word_for(transport_words, s.transport),
-                            word_for(light_choice_words, s.light_choice), word_for(switch_words, s.roulette));
-        if (s.roulette && s.roulette_from > 0)
-            text += fmt::format(" after more than {}", counted(s.roulette_from, "event"));
-    }
-    return text + fmt::format(", light sampling {}", word_for(light_sampling_words, s.light_sampling));
 }
 
 /// The queues of a thread where their length is given; what one (pixel, sample) pair takes where render decides it.
@@ -70,19 +56,16 @@ int info_command(const Arguments& arguments) {
 
     std::string text;
     const auto row = [&](std::string_view name, std::string_view value) {
-        fmt::format_to(std::back_inserter(text), "{:<10} {}\n", name, printable_whole(value));
+        fmt::format_to(std::back_inserter(text), "{:<14} {}\n", name, printable_whole(value));
     };
     row("scene", plan.scene().file.string());
-    row("image", fmt::format("{} x {} pixels, tone mapper {}", settings.width, settings.height,
-                             word_for(tonemap_words, tone_mapper(settings))));
     row("output", settings.output.empty() ? "none named" : settings.output.string());
     row("samples", samples_text(plan, goal_of(arguments)));
-    row("seed", std::to_string(settings.seed));
-    row("method", method_text(settings));
+    for (const Setting& setting : all_settings())
+        if (setting.matters(settings)) row(setting.option, text_of(setting, settings));
     row("film", bytes_text(pixels * bytes_per_pixel));
     row("queues", queues_text(plan, arguments.wave_size));
     row("isa", fmt::format("{} (this machine supports {})", isa_name(arguments.isa), supported_isas()));
-    row("precision", word_for(precision_words, settings.precision));
 
     text += "\nplan\n";
     for (const Decision& decision : plan.decisions()) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "cli/commands.hpp"
+#include "cli/exit_code.hpp"
 #include "cli/late_notice.hpp"
 #include "cli/standard_streams.hpp"
 #include "scene/counted.hpp"
@@ -17,6 +18,18 @@ void print_diagnostics(const Arguments& arguments, const std::vector<Diagnostic>
     for (const Diagnostic& diagnostic : diagnostics) {
         if (diagnostic.severity == Severity::warning && arguments.quiet) continue;
         print_line(format_diagnostic(arguments.scene.string(), diagnostic));
+    }
+}
+
+/// Throws UsageError where the settings together are none a scene file could hold: `--integrator wrt` may be what makes
+/// the scene's own depth too much.
+void apply(const Overrides& overrides, RenderSettings& settings) {
+    for (const auto& [setting, value] : overrides) setting->member.set(settings, value);
+    for (const Conflict& conflict : conflicts(settings)) {
+        const std::string whose = overrides.contains(&conflict.setting)
+                                      ? fmt::format("--{}", conflict.setting.option)
+                                      : fmt::format("the scene's {}", conflict.setting.key);
+        throw UsageError(whose + ": " + conflict.message);
     }
 }
 

@@ -2,40 +2,28 @@
 
 #include <fmt/format.h>
 
-#include "cli/overrides.hpp"
+#include "cli/values.hpp"
 #include "cli/version.hpp"
-#include "cli/words.hpp"
+#include "scene/settings.hpp"
 
 namespace orrery {
 
-std::string canonical_options(const RenderSettings& s, const Goal& goal, ImageFormat format) {
-    std::string text =
-        fmt::format("--integrator {} --size {}x{}", word_for(integrator_words, s.integrator), s.width, s.height);
-    const auto add = [&](std::string_view option, auto value) { text += fmt::format(" --{} {}", option, value); };
-    if (goal.asked()) {
-        if (goal.error > 0) add("error", goal.error);
-        if (goal.seconds > 0) add("time", fmt::format("{}s", goal.seconds));
-        if (goal.samples > 0) add("spp", goal.samples);
-        add("adaptive", word_for(switch_words, goal.adaptive));
-    } else {
-        add("spp", s.samples);
+std::string canonical_options(const RenderSettings& settings, const Goal& goal, ImageFormat format) {
+    std::string text;
+    const auto add = [&](std::string_view option, auto value) {
+        text += fmt::format("{}--{} {}", text.empty() ? "" : " ", option, value);
+    };
+    const bool eight_bit = format == ImageFormat::ppm || format == ImageFormat::png;
+    for (const Setting& setting : all_settings()) {
+        if (setting.option == "spp" && goal.asked()) {
+            if (goal.error > 0) add("error", goal.error);
+            if (goal.seconds > 0) add("time", fmt::format("{}s", goal.seconds));
+            if (goal.samples > 0) add("spp", goal.samples);
+            add("adaptive", on_off[goal.adaptive ? 0 : 1]);
+        } else if (setting.matters(settings) && (eight_bit || setting.option != "tonemap")) {
+            add(setting.option, text_of(setting, settings));
+        }
     }
-    add("estimator", word_for(estimator_words, s.estimator));
-    add("seed", s.seed);
-    if (s.integrator != Integrator::depth) {
-        add("depth", s.depth);
-        add("light-sampling", word_for(light_sampling_words, s.light_sampling));
-    }
-    if (s.integrator == Integrator::path_tracing) {
-        add("transport", word_for(transport_words, s.transport));
-        add("light-choice", word_for(light_choice_words, s.light_choice));
-        add("roulette", word_for(switch_words, s.roulette));
-        if (s.roulette) add("roulette-from", s.roulette_from);
-    }
-    if (format == ImageFormat::ppm || format == ImageFormat::png) {
-        add("tonemap", word_for(tonemap_words, tone_mapper(s)));
-    }
-    add("precision", word_for(precision_words, s.precision));
     return text;
 }
 

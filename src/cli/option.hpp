@@ -11,7 +11,8 @@ namespace orrery {
 /// `read` takes the option's text; its UsageError gets the option's name in front. `label` stands for the value in the
 /// help.
 template <class Read>
-CLI::Option* add_option(CLI::App& app, const char* name, const std::string& label, const std::string& help, Read read) {
+CLI::Option* add_option(CLI::App& app, const std::string& name, const std::string& label, const std::string& help,
+                        Read read) {
     const auto named = [name, read](const std::string& text) {
         try {
             read(text);

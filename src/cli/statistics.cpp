@@ -1,16 +1,20 @@
 #include "cli/statistics.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/json_text.hpp"
 #include "cli/version.hpp"
-#include "cli/words.hpp"
+#include "scene/settings.hpp"
 
 namespace orrery {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// By StopReason.
+constexpr const char* stop_names[] = {"samples", "error", "time"};
 
 Json stage_seconds(const RenderStats& stats) {
     Json seconds = Json::object();
@@ -72,22 +76,26 @@ double rays_per_second(const RenderStats& stats) {
 
 std::string statistics_json(const Plan& plan, const Goal& goal, const RenderStats& stats,
                             const std::vector<std::filesystem::path>& images) {
-    const RenderSettings& settings = plan.settings();
     Json json = {
         {"scene", plan.scene().file.string()},
         {"images", Json::array()},
         {"version", version()},
-        {"integrator", word_for(integrator_words, settings.integrator)},
-        {"size", {settings.width, settings.height}},
+    };
+    for (const Setting& setting : all_settings()) {
+        const SettingValue value = setting.member.get(plan.settings());
+        std::string key(setting.option);
+        std::ranges::replace(key, '-', '_');
+        json[key] = setting.kind == SettingKind::word     ? Json(text_of(setting, value))
+                    : setting.kind == SettingKind::number ? Json(value[0])
+                                                          : Json(value);
+    }
+    json.update({
         {"samples_per_pixel", stats.samples_per_pixel},
         {"samples_of_any_pixel", {stats.least_samples, stats.most_samples}},
         {"goal", goal_json(goal)},
-        {"stopped_by", word_for(stop_words, stats.stopped_by)},
+        {"stopped_by", stop_names[static_cast<std::size_t>(stats.stopped_by)]},
         {"passes", stats.passes},
-        {"depth", settings.depth},
-        {"seed", settings.seed},
         {"isa", isa_name(stats.isa)},
-        {"precision", word_for(precision_words, settings.precision)},
         {"threads", stats.threads},
         {"wave_size", stats.wave_size},
         {"bytes_per_ray", stats.bytes_per_ray},
@@ -101,7 +109,7 @@ std::string statistics_json(const Plan& plan, const Goal& goal, const RenderStat
         {"rmse", error_json(stats.error.absolute)},
         {"dropped_samples", stats.dropped_samples},
         {"plan", decisions(plan)},
-    };
+    });
     for (const auto& image : images) json["images"].push_back(image.string());
     return json_text(json);
 }

@@ -1,27 +1,20 @@
 #include "cli/values.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "cli/exit_code.hpp"
+#include "scene/settings.hpp"
 #include "system/printable.hpp"
 
 namespace orrery {
 namespace {
-
-constexpr std::uint32_t largest_dimension = 65536;
-
-std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t low, std::uint32_t high) {
-    std::uint32_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool whole = error == std::errc() && end == text.data() + text.size();
-    if (!whole || value < low || value > high) return std::nullopt;
-    return value;
-}
 
 /// A decimal number and what is behind it. Empty where there is none, or a sign or an exponent.
 std::optional<std::pair<double, std::string_view>> number_and_rest(std::string_view text) {
@@ -53,16 +46,6 @@ double parse_limit(std::string_view text) {
     throw unexpected(text, "a number >= 0");
 }
 
-ImageSize parse_size(std::string_view text) {
-    const std::size_t cross = text.find('x');
-    if (cross != std::string_view::npos) {
-        const auto width = whole_number(text.substr(0, cross), 1, largest_dimension);
-        const auto height = whole_number(text.substr(cross + 1), 1, largest_dimension);
-        if (width && height) return {*width, *height};
-    }
-    throw unexpected(text, fmt::format("WIDTHxHEIGHT in pixels such as 640x480, each from 1 to {}", largest_dimension));
-}
-
 double parse_share(std::string_view text) {
     if (const auto number = number_and_rest(text)) {
         const auto& [value, rest] = *number;
@@ -90,6 +73,12 @@ Isa parse_isa(std::string_view text) {
     const std::optional<Isa> isa = isa_from_name(text);
     if (isa && isa_supported(*isa)) return *isa;
     throw unexpected(text, fmt::format("auto or an instruction set this machine supports: {}", supported_isas()));
+}
+
+std::size_t parse_word(std::string_view text, std::span<const std::string_view> words) {
+    const auto word = std::ranges::find(words, text);
+    if (word != words.end()) return static_cast<std::size_t>(word - words.begin());
+    throw unexpected(text, fmt::format("{}", fmt::join(words, "|")));
 }
 
 std::string supported_isas() {

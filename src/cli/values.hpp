@@ -1,13 +1,13 @@
 // Option values: text of the command line -> value, or a message that says what was expected.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "cli/exit_code.hpp"
-#include "cli/overrides.hpp"
-#include "cli/words.hpp"
 #include "kernels/isa.hpp"
 
 namespace orrery {
@@ -17,9 +17,6 @@ std::uint32_t parse_integer(std::string_view text, std::uint32_t low, std::uint3
 
 /// A finite decimal number >= 0, with or without fraction and exponent, nothing before or after it. Throws UsageError.
 double parse_limit(std::string_view text);
-
-/// "640x480", each 1 to 65536. Throws UsageError.
-ImageSize parse_size(std::string_view text);
 
 /// "1%" or "0.01", from 0.0001 % to 100 %: 0.01. Throws UsageError.
 double parse_share(std::string_view text);
@@ -36,11 +33,9 @@ std::string supported_isas();
 /// For whoever throws: "found "x", expected y".
 UsageError unexpected(std::string_view found, std::string_view expected);
 
-/// One of a table's words. Throws UsageError.
-template <class Value, std::size_t count>
-Value parse_word(std::string_view text, const Words<Value, count>& words) {
-    if (const auto value = value_of(words, text)) return *value;
-    throw unexpected(text, alternatives(words));
-}
+/// Which of the words it is. Throws UsageError.
+std::size_t parse_word(std::string_view text, std::span<const std::string_view> words);
+
+inline constexpr std::string_view on_off[] = {"on", "off"};
 
 }  // namespace orrery

@@ -121,20 +121,20 @@ void Fields::warn(std::string_view key, std::string message) {
     report_.add(Severity::warning, node_.where(key), std::move(message));
 }
 
-std::optional<std::size_t> Fields::choice_index(std::string_view key, std::span<const std::string_view> words) {
+std::optional<std::size_t> Fields::word(std::string_view key, std::span<const std::string_view> words) {
     const auto expected = [&] { return fmt::format("one of \"{}\"", fmt::join(words, "\", \"")); };
     const Json* value = require(key, expected);
     if (!value) return std::nullopt;
     const Node node(node_, key, *value);
-    const auto word = node.text();
-    if (!word) {
+    const auto text = node.text();
+    if (!text) {
         report_unexpected(node, expected());
         return std::nullopt;
     }
-    const auto found = std::ranges::find(words, *word);
+    const auto found = std::ranges::find(words, *text);
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-    const std::string_view near = report_.spelling().nearest(*word, words);
-    fault(key, fmt::format("found {}, expected {}{}", in_quotes(*word), expected(),
+    const std::string_view near = report_.spelling().nearest(*text, words);
+    fault(key, fmt::format("found {}, expected {}{}", in_quotes(*text), expected(),
                            near.empty() ? "" : fmt::format("; the nearest is {}", in_quotes(near))));
     return std::nullopt;
 }

@@ -50,11 +50,14 @@ public:
     std::optional<Node> list(std::string_view key, std::string_view expected);
     std::optional<Node> any(std::string_view key, std::string_view expected);
 
+    /// Which of the words stands there.
+    std::optional<std::size_t> word(std::string_view key, std::span<const std::string_view> words);
+
     template <class Value, std::size_t N>
     std::optional<Value> choice(std::string_view key, const Choice<Value> (&choices)[N]) {
         std::array<std::string_view, N> words;
         for (std::size_t i = 0; i < N; ++i) words[i] = choices[i].word;
-        const std::optional<std::size_t> found = choice_index(key, words);
+        const std::optional<std::size_t> found = word(key, words);
         return found ? std::optional(choices[*found].value) : std::nullopt;
     }
 
@@ -76,7 +79,6 @@ private:
     /// The value of a key that has to be there; `expected()` says what it should be where it is not.
     template <class Expected>
     const Json* require(std::string_view key, const Expected& expected);
-    std::optional<std::size_t> choice_index(std::string_view key, std::span<const std::string_view> words);
     std::optional<double> number_at(const Node& node, const Range& range);
     std::optional<std::uint32_t> integer_at(const Node& node, std::uint32_t low, std::uint32_t high);
     void report(std::string where, std::string message);

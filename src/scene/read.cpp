@@ -14,7 +14,7 @@
 
 #include "scene/composition.hpp"
 #include "scene/json_text.hpp"
-#include "scene/settings.hpp"
+#include "scene/renderer.hpp"
 #include "system/file_descriptor.hpp"
 #include "system/links.hpp"
 #include "system/memory.hpp"
@@ -39,7 +39,7 @@ Scene read_root(const Json& tree, const std::filesystem::path& file, const std::
         Fields fields(*composition, "a scene object", report);
         read_composition(fields, registries, report, scene);
         if (const auto renderer = fields.any("renderer", "a renderer object")) {
-            scene.settings = read_settings(*renderer, folder, report);
+            scene.settings = read_renderer(*renderer, folder, report);
         }
         fields.finish();
     }

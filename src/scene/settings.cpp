@@ -1,97 +1,173 @@
 #include "scene/settings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <charconv>
 #include <limits>
+#include <type_traits>
 
 #include "scene/image_memory.hpp"
+#include "scene/spelling.hpp"
 #include "system/memory.hpp"
-#include "system/printable.hpp"
 
 namespace orrery {
 namespace {
 
+constexpr std::uint32_t any = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t largest_dimension = 65536;
 constexpr std::uint32_t deepest_whitted = 20;  // two branches per hit: 2^20 rays per sample is as far as it goes
-constexpr std::uint32_t any = std::numeric_limits<std::uint32_t>::max();
 
-void read_dimensions(Fields& fields, RenderSettings& settings) {
-    const auto dimensions = fields.integer_pair("dimensions", 1, largest_dimension);
-    if (!dimensions) return;
-    settings.width = (*dimensions)[0];
-    settings.height = (*dimensions)[1];
-    const auto fault = too_many_pixels(settings.width, settings.height, memory_limit());
-    if (fault) fields.fault("dimensions", *fault);
+/// A number, or an enumeration whose values are numbered as the setting's words; true is "on", the first.
+template <auto pointer>
+constexpr SettingMember member = {
+    .get = [](const RenderSettings& settings) -> SettingValue {
+        const auto value = settings.*pointer;
+        if constexpr (std::is_same_v<decltype(value), const bool>) return {!value};
+        return {static_cast<std::uint32_t>(value)};
+    },
+    .set =
+        [](RenderSettings& settings, SettingValue value) {
+            using Member = std::remove_reference_t<decltype(settings.*pointer)>;
+            settings.*pointer = static_cast<Member>(std::is_same_v<Member, bool> ? value[0] == 0 : value[0]);
+        }};
+
+bool with_light(const RenderSettings& s) { return s.integrator != Integrator::depth; }
+bool with_paths(const RenderSettings& s) { return s.integrator == Integrator::path_tracing; }
+bool with_roulette(const RenderSettings& s) { return with_paths(s) && s.roulette; }
+
+std::vector<Setting> table() {
+    using S = RenderSettings;
+    constexpr auto word = SettingKind::word;
+    return {
+        // clang-format off
+        {.key = "type", .option = "integrator", .group = "Method", .kind = word, .words = {"PT", "WRT", "DEPTH"},
+         .required = true, .meaning = "Path tracing, Whitted ray tracing, or the distance to the first hit",
+         .member = member<&S::integrator>},
+        {.key = "dimensions", .option = "size", .group = "Image", .kind = SettingKind::size, .low = 1,
+         .high = largest_dimension, .required = true,
+         .meaning = "Width and height of the image in pixels; the camera's view stays as it is",
+         .member = {[](const S& s) { return SettingValue{s.width, s.height}; },
+                    [](S& s, SettingValue value) { s.width = value[0], s.height = value[1]; }}},
+        {.key = "samples", .option = "spp", .group = "Image", .low = 1, .high = any, .required = true,
+         .meaning = "Samples per pixel; stratified takes the square number below, sobol is at its best with powers of "
+                    "two",
+         .member = member<&S::samples>},
+        {.key = "estimator", .option = "estimator", .group = "Method", .kind = word,
+         .words = {"uniform", "stratified", "sobol"}, .same_expectation = true,
+         .meaning = "Samples of a pixel: independent; stratified, one per cell of a grid; or Sobol's sequence in all "
+                    "dimensions of a path",
+         .member = member<&S::estimator>},
+        {.key = "seed", .option = "seed", .group = "Image", .high = any,
+         .meaning = "Another seed is another noise; the same one, the same file", .member = member<&S::seed>},
+        {.key = "depth", .option = "depth", .group = "Method", .high = any, .required = true,
+         .meaning = "Greatest number of scattering events on a path from eye to light; at most 20 for Whitted",
+         .member = member<&S::depth>, .matters = with_light},
+        {.key = "light sampling", .option = "light-sampling", .group = "Method", .kind = word,
+         .words = {"area", "cone"}, .same_expectation = true,
+         .meaning = "Points on a spherical light: uniform over its surface, or over the cone it subtends",
+         .member = member<&S::light_sampling>, .matters = with_light},
+        {.key = "transport", .option = "transport", .group = "Method", .kind = word, .words = {"naive", "nee", "mis"},
+         .same_expectation = true,
+         .meaning = "Area lights are found by the paths that hit them, sampled (next event estimation), or both "
+                    "(multiple importance sampling)",
+         .member = member<&S::transport>, .matters = with_paths},
+        {.key = "light choice", .option = "light-choice", .group = "Method", .kind = word,
+         .words = {"all", "uniform", "power"}, .same_expectation = true,
+         .meaning = "Lights sampled at a vertex of a path: all, or one, chosen uniformly or by emitted power",
+         .member = member<&S::light_choice>, .matters = with_paths},
+        {.key = "roulette", .option = "roulette", .group = "Method", .kind = word, .words = {"on", "off"},
+         .same_expectation = true, .meaning = "Russian roulette ends paths of low throughput",
+         .member = member<&S::roulette>, .matters = with_paths},
+        {.key = "roulette from", .option = "roulette-from", .group = "Method", .high = any, .same_expectation = true,
+         .meaning = "Scattering events at the beginning of a path that are not followed by Russian roulette",
+         .member = member<&S::roulette_from>, .matters = with_roulette},
+        {.key = "tonemap", .option = "tonemap", .group = "Image", .kind = word, .words = {"sigmoid", "linear", "none"},
+         .meaning = "From radiance I to 8 bit: I/(1+I), I/max(I), or I clamped to 1; the default for DEPTH is none",
+         .member = {[](const S& s) { return SettingValue{static_cast<std::uint32_t>(tone_mapper(s))}; },
+                    [](S& s, SettingValue value) { s.tonemap = static_cast<ToneMap>(value[0]); }}},
+        {.key = "precision", .option = "precision", .group = "Method", .kind = word,
+         .words = {"auto", "float", "double"}, .same_expectation = true,
+         .meaning = "Number type to compute in; auto is float where that is good enough for the scene, else double",
+         .member = member<&S::precision>},
+        // clang-format on
+    };
 }
 
-void read_output(Fields& fields, const std::filesystem::path& folder, RenderSettings& settings) {
-    if (!fields.has("output")) return;  // the command line may name it
-    const std::optional<std::string_view> output = fields.text("output", "a file path");
-    if (!output) return;
-    // A path with a NUL would be cut there by the operating system, and another file written; with other control
-    // characters it would be no name that anybody can see and type.
-    if (output->empty() || !is_printable(*output)) {
-        const char* expected = output->empty() ? "a file path" : "a file path without control characters";
-        fields.fault("output", fmt::format("found {}, expected {}", in_quotes(*output), expected));
-        return;
-    }
-    settings.output = (folder / *output).lexically_normal();
-}
-
-void read_roulette(Fields& fields, RenderSettings& settings) {
-    if (!fields.has("roulette")) return;
-    const auto node = fields.any("roulette", "\"on\" or \"off\"");
-    if (node->value().is_boolean()) {
-        settings.roulette = node->value().get<bool>();
-    } else if (const auto word = fields.choice<bool>("roulette", {{"on", true}, {"off", false}})) {
-        settings.roulette = *word;
-    }
+std::string lower_case(std::string_view word) {
+    std::string text(word);
+    std::ranges::transform(text, text.begin(), lower);
+    return text;
 }
 
 }  // namespace
 
-RenderSettings read_settings(const Node& renderer, const std::filesystem::path& folder, Report& report) {
-    RenderSettings settings;
-    Fields fields(renderer, "a renderer object", report);
-    const auto integrator = fields.choice<Integrator>(
-        "type", {{"PT", Integrator::path_tracing}, {"WRT", Integrator::whitted}, {"DEPTH", Integrator::depth}});
-    settings.integrator = integrator.value_or(Integrator::path_tracing);
-    read_dimensions(fields, settings);
-    settings.samples = fields.integer("samples", 1, any).value_or(1);
-    settings.depth = fields.integer("depth", 0, integrator == Integrator::whitted ? deepest_whitted : any).value_or(0);
-    read_output(fields, folder, settings);
-
-    if (fields.has("estimator")) {
-        const auto estimator = fields.choice<Estimator>(
-            "estimator",
-            {{"uniform", Estimator::uniform}, {"stratified", Estimator::stratified}, {"sobol", Estimator::sobol}});
-        settings.estimator = estimator.value_or(settings.estimator);
-    }
-    if (fields.has("transport")) {
-        const auto transport = fields.choice<Transport>(
-            "transport", {{"naive", Transport::naive}, {"nee", Transport::nee}, {"mis", Transport::mis}});
-        settings.transport = transport.value_or(settings.transport);
-    }
-    if (fields.has("light sampling")) {
-        const auto sampling = fields.choice<LightSampling>(
-            "light sampling", {{"area", LightSampling::area}, {"cone", LightSampling::cone}});
-        settings.light_sampling = sampling.value_or(settings.light_sampling);
-    }
-    if (fields.has("light choice")) {
-        const auto choice = fields.choice<LightChoice>(
-            "light choice",
-            {{"all", LightChoice::all}, {"uniform", LightChoice::uniform}, {"power", LightChoice::power}});
-        settings.light_choice = choice.value_or(settings.light_choice);
-    }
-    read_roulette(fields, settings);
-    if (fields.has("roulette from")) settings.roulette_from = fields.integer("roulette from", 0, any).value_or(0);
-    if (fields.has("tonemap")) {
-        settings.tonemap = fields.choice<ToneMap>(
-            "tonemap", {{"sigmoid", ToneMap::sigmoid}, {"linear", ToneMap::linear}, {"none", ToneMap::none}});
-    }
-    if (fields.has("seed")) settings.seed = fields.integer("seed", 0, any).value_or(0);
-    fields.finish();
+std::span<const Setting> all_settings() {
+    static const std::vector<Setting> settings = table();
     return settings;
+}
+
+const Setting& setting(std::string_view option) { return *std::ranges::find(all_settings(), option, &Setting::option); }
+
+std::string text_of(const Setting& setting, SettingValue value) {
+    switch (setting.kind) {
+        case SettingKind::word:
+            return lower_case(setting.words.at(value[0]));
+        case SettingKind::number:
+            return fmt::format("{}", value[0]);
+        case SettingKind::size:
+            break;
+    }
+    return fmt::format("{}x{}", value[0], value[1]);
+}
+
+std::optional<SettingValue> value_of(const Setting& setting, std::string_view text) {
+    if (setting.kind == SettingKind::word) {
+        const auto word =
+            std::ranges::find(setting.words, text, [](std::string_view known) { return lower_case(known); });
+        if (word == setting.words.end()) return std::nullopt;
+        return SettingValue{static_cast<std::uint32_t>(word - setting.words.begin())};
+    }
+    const auto number = [&](std::string_view digits) { return whole_number(digits, setting.low, setting.high); };
+    if (setting.kind == SettingKind::number) {
+        const auto value = number(text);
+        return value ? std::optional(SettingValue{*value}) : std::nullopt;
+    }
+    const std::size_t cross = std::min(text.find('x'), text.size());
+    const auto width = number(text.substr(0, cross)), height = number(text.substr(std::min(cross + 1, text.size())));
+    return width && height ? std::optional(SettingValue{*width, *height}) : std::nullopt;
+}
+
+std::string expected_text(const Setting& setting) {
+    if (setting.kind == SettingKind::word) return lower_case(fmt::format("{}", fmt::join(setting.words, "|")));
+    const std::string range = fmt::format("from {} to {}", setting.low, setting.high);
+    if (setting.kind == SettingKind::number) return "a whole number " + range;
+    return "WIDTHxHEIGHT in pixels such as 640x480, each " + range;
+}
+
+std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t low, std::uint32_t high) {
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = error == std::errc() && end == text.data() + text.size();
+    if (!whole || value < low || value > high) return std::nullopt;
+    return value;
+}
+
+std::vector<Conflict> conflicts(const RenderSettings& settings) {
+    std::vector<Conflict> found;
+    if (settings.integrator == Integrator::whitted && settings.depth > deepest_whitted) {
+        found.push_back({setting("depth"), fmt::format("found {}, expected an integer from 0 to {} for Whitted ray "
+                                                       "tracing",
+                                                       settings.depth, deepest_whitted)});
+    }
+    if (auto fault = too_many_pixels(settings.width, settings.height, memory_limit()))
+        found.push_back({setting("size"), std::move(*fault)});
+    return found;
+}
+
+ToneMap tone_mapper(const RenderSettings& settings) {
+    return settings.tonemap.value_or(settings.integrator == Integrator::depth ? ToneMap::none : ToneMap::sigmoid);
 }
 
 }  // namespace orrery

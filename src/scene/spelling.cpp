@@ -9,8 +9,6 @@ namespace {
 
 constexpr std::size_t compared_bytes = 64;
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
 /// edit_distance(), or some number >= `bound` as soon as the distance cannot be less. Adds the cells it filled to
 /// `work`.
 std::size_t bounded_distance(std::string_view a, std::string_view b, std::size_t bound, std::size_t& work) {

@@ -7,6 +7,9 @@
 
 namespace orrery {
 
+/// Of an ASCII letter; any other byte stays as it is.
+constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
 /// Insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`; letter case is free.
 /// Of what follows the common beginning only the first 64 bytes count, which bounds the work.
 std::size_t edit_distance(std::string_view a, std::string_view b);

@@ -39,6 +39,7 @@ struct World {
 };
 
 enum class Kind : std::uint8_t { random, lattice, cluster, cosmos };
+inline constexpr std::string_view kind_names[] = {"random", "lattice", "cluster", "cosmos"};
 
 /// The world of a kind. The same number and seed make the same world.
 World make_world(Kind kind, std::uint64_t spheres, std::uint32_t seed);

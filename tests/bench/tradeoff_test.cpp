@@ -6,6 +6,7 @@
 
 #include "bench/tradeoff/summary.hpp"
 #include "scene/read.hpp"
+#include "scene/settings.hpp"
 
 namespace orrery::tradeoff {
 namespace {
@@ -39,6 +40,34 @@ TEST(Variants, BeginWithTheDefaultsAndHaveNamesOfTheirOwn) {
     EXPECT_THAT(names, ::testing::Contains("--precision double"));
     std::ranges::sort(names);
     EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
+}
+
+TEST(Variants, TryEverySettingThatChangesNoExpectation) {
+    const std::vector<Variant> variants = all_variants();
+    for (const Setting& setting : all_settings()) {
+        const std::string option = "--" + std::string(setting.option);
+        EXPECT_EQ(std::ranges::any_of(variants, [&](const Variant& variant) { return variant.chooses(option); }),
+                  setting.same_expectation)
+            << option;
+        for (std::uint32_t word = 0; setting.same_expectation && word < setting.words.size(); ++word) {
+            const Variant alone{{{.option = option, .word = text_of(setting, {word})}}};
+            const SettingValue usual = setting.member.get(RenderSettings{});
+            EXPECT_EQ(std::ranges::count(variants, alone.name(), &Variant::name), word == usual[0] ? 0 : 1)
+                << alone.name();
+        }
+    }
+}
+
+TEST(Variants, DoWhatTheirNamesSay) {
+    for (const Variant& variant : all_variants()) {
+        const RenderSettings settings = variant.setup({}).settings;
+        for (const Setting& setting : all_settings()) {
+            std::string expected = text_of(setting, RenderSettings{});
+            for (const Choice& choice : variant.choices)
+                if (choice.option == "--" + std::string(setting.option)) expected = choice.word;
+            EXPECT_EQ(text_of(setting, settings), expected) << variant.name();
+        }
+    }
 }
 
 /// A ball on the ground under a lamp, 16 x 16 pixels.

@@ -16,8 +16,8 @@ TEST(Info, PrintsSettingsMemoryAndPlan) {
     const Outcome outcome = orrery({"info", scene_file("tests/diffuse_area.json"), "--spp", "10", "--size", "640x480"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
     EXPECT_THAT(outcome.output,
-                AllOf(HasSubstr("640 x 480"), HasSubstr("9 per pixel, stratified 3 x 3 (10 asked)"),
-                      HasSubstr("film       41.0 MiB"), ContainsRegex("queues +[0-9]+ bytes"),
+                AllOf(ContainsRegex("size +640x480\n"), HasSubstr("9 per pixel, stratified 3 x 3 (10 asked)"),
+                      ContainsRegex("film +41.0 MiB"), ContainsRegex("queues +[0-9]+ bytes"),
                       HasSubstr(std::string(isa_name(best_isa()))), HasSubstr("tests/diffuse_area.pfm")));
     EXPECT_THAT(outcome.output, ContainsRegex("left out +generate: lens +the camera is a pinhole"));
     EXPECT_THAT(outcome.output, ContainsRegex("runs +shadow: area lights"));
@@ -30,10 +30,11 @@ TEST(Info, FollowsTheOptions) {
     };
     EXPECT_THAT(info({"--transport", "naive"}), ContainsRegex("left out +shadow: area lights"));
     EXPECT_THAT(info({"--integrator", "depth"}), HasSubstr("DEPTH stops after intersect"));
-    EXPECT_THAT(info({"--isa", "scalar"}), HasSubstr("isa        scalar"));
+    EXPECT_THAT(info({"--isa", "scalar"}), ContainsRegex("isa +scalar"));
     EXPECT_THAT(info({"--wave-size", "1024"}), HasSubstr("per thread for waves of 1024"));
     EXPECT_THAT(info({"--estimator", "uniform", "--spp", "10"}), HasSubstr("10 per pixel, uniform"));
-    EXPECT_THAT(info({"--tonemap", "linear", "--seed", "5"}), AllOf(HasSubstr("linear"), HasSubstr("seed       5")));
+    EXPECT_THAT(info({"--tonemap", "linear", "--seed", "5"}),
+                AllOf(ContainsRegex("tonemap +linear\n"), ContainsRegex("seed +5\n")));
 }
 
 // Float, the faster, is good enough for what people make.

@@ -47,9 +47,7 @@ Scene read_back(const Scene& scene) {
             if (diagnostic.severity == Severity::error)
                 throw Finding("a sound scene is refused: " + diagnostic.where + ": " + diagnostic.message, scene);
     }
-    Scene read = *result.scene;
-    read.settings.precision = scene.settings.precision;
-    return read;
+    return *result.scene;
 }
 
 void expect_same(const Image& a, const Image& b, const Scene& scene, const std::string& what) {

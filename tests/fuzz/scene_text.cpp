@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/settings.hpp"
+
 namespace orrery::fuzz {
 
 namespace {
@@ -32,21 +34,20 @@ Json material(const Material& m) {
     return json;
 }
 
-Json renderer(const RenderSettings& s) {
-    const auto word = [](auto value, std::initializer_list<const char*> words) {
-        return words.begin()[static_cast<std::size_t>(value)];
-    };
-    return {{"type", word(s.integrator, {"PT", "WRT", "DEPTH"})},
-            {"dimensions", {s.width, s.height}},
-            {"samples", s.samples},
-            {"depth", s.depth},
-            {"estimator", word(s.estimator, {"uniform", "stratified", "sobol"})},
-            {"transport", word(s.transport, {"naive", "nee", "mis"})},
-            {"light sampling", word(s.light_sampling, {"area", "cone"})},
-            {"light choice", word(s.light_choice, {"all", "uniform", "power"})},
-            {"roulette", s.roulette},
-            {"roulette from", s.roulette_from},
-            {"seed", s.seed}};
+Json renderer(const RenderSettings& settings) {
+    Json json;
+    for (const Setting& setting : all_settings()) {
+        const SettingValue value = setting.member.get(settings);
+        Json& field = json[std::string(setting.key)];
+        if (setting.kind == SettingKind::word) {
+            field = setting.words.at(value[0]);
+        } else if (setting.kind == SettingKind::number) {
+            field = value[0];
+        } else {
+            field = value;
+        }
+    }
+    return json;
 }
 
 }  // namespace
