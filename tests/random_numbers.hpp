@@ -5,12 +5,18 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <string_view>
 
 namespace orrery::test {
 
 class RandomNumbers {
 public:
     explicit RandomNumbers(std::uint64_t seed) : engine_(seed) {}
+    /// Other names, other numbers.
+    explicit RandomNumbers(std::string_view name) {
+        std::seed_seq letters(name.begin(), name.end());
+        engine_.seed(letters);
+    }
     std::uint64_t bits() { return engine_(); }
     double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
     double between(double low, double high) { return low + (high - low) * uniform(); }

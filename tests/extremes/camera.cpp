@@ -80,12 +80,10 @@ void measure_a_ball(Errors& errors, const Pipeline& how, std::uint32_t width, st
 void add_camera(std::vector<Case>& cases) {
     const auto add = [&]<class V>(const char* name, double fov, double aspect, const dvec3& position,
                                   const dvec3& ahead, V) {
-        cases.push_back({"camera", name, mode_name<V>(), "u", 4, 10,
-                         [=, seed = cases.size()](Errors& errors, std::uint64_t trials) {
-                             Dice dice(seed);
-                             for (std::uint64_t i = 0; i < trials; ++i)
-                                 look<V>(errors, dice, fov, aspect, position, ahead);
-                         }});
+        cases.push_back(
+            {"camera", name, mode_name<V>(), "u", 4, 10, [=](Errors& errors, std::uint64_t trials, Dice& dice) {
+                 for (std::uint64_t i = 0; i < trials; ++i) look<V>(errors, dice, fov, aspect, position, ahead);
+             }});
     };
     const auto add_all = [&]<class V>(V v) {
         const dvec3 here{1, 2, 3}, ahead{0.3, -0.2, 1};
@@ -102,9 +100,9 @@ void add_camera(std::vector<Case>& cases) {
     for_each_mode([&]<class V>() { add_all(V{}); });
     for (const Pipeline& how : pipelines()) {
         const auto add_size = [&](std::uint32_t width, std::uint32_t height) {
-            cases.push_back({"camera", fmt::format("distances through {} x {} pixels", width, height), how.mode,
-                             "u (1 + d)^2", 1, 1,
-                             [=](Errors& errors, std::uint64_t) { measure_a_ball(errors, how, width, height); }});
+            cases.push_back(
+                {"camera", fmt::format("distances through {} x {} pixels", width, height), how.mode, "u (1 + d)^2", 1,
+                 1, [=](Errors& errors, std::uint64_t, Dice&) { measure_a_ball(errors, how, width, height); }});
         };
         add_size(1, 1);
         add_size(65536, 1);

@@ -19,6 +19,15 @@ std::vector<Case> in_order_of_the_table(const std::vector<Case>& cases) {
 
 }  // namespace
 
+std::string full_name(const Case& c) { return c.group + ", " + c.name + ", " + c.mode; }
+
+Errors errors_of(const Case& c, std::uint64_t trials) {
+    Errors errors;
+    Dice dice(full_name(c));
+    c.run(errors, trials, dice);
+    return errors;
+}
+
 std::vector<Case> all_cases() {
     std::vector<Case> cases;
     add_ray_and_sphere(cases);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dice.hpp"
 #include "errors.hpp"
 
 namespace orrery::extremes {
@@ -17,9 +18,15 @@ struct Case {
     std::string unit;   ///< what an error of 1 is
     double limit;       ///< the greatest error we promise
     std::uint64_t trials;
-    std::function<void(Errors&, std::uint64_t trials)> run;
+    std::function<void(Errors&, std::uint64_t trials, Dice&)> run;
     std::uint64_t times_on_page = 10;  ///< as many times the trials where the page is made
 };
+
+/// "group, name, mode": no two cases share it.
+std::string full_name(const Case& c);
+
+/// Runs a case. Its random numbers depend on its full name alone: other cases may come, go and move.
+Errors errors_of(const Case& c, std::uint64_t trials);
 
 /// The order is that of the table.
 std::vector<Case> all_cases();

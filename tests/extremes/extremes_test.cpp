@@ -9,7 +9,7 @@
 namespace orrery::extremes {
 
 /// So that a failure names the case in words.
-void PrintTo(const Case& c, std::ostream* out) { *out << c.group << ", " << c.name << ", " << c.mode; }
+void PrintTo(const Case& c, std::ostream* out) { *out << full_name(c); }
 
 namespace {
 
@@ -17,8 +17,7 @@ class Extremes : public testing::TestWithParam<Case> {};
 
 TEST_P(Extremes, KeepsItsPromise) {
     const Case& c = GetParam();
-    Errors errors;
-    c.run(errors, c.trials);
+    const Errors errors = errors_of(c, c.trials);
     EXPECT_GT(errors.count(), 0u);
     EXPECT_LE(errors.worst(), c.limit) << "in units of " << c.unit << ", by " << errors.culprit();
 }

@@ -17,10 +17,10 @@ int main(int argc, char** argv) {
                              part.empty() && times >= 1 ? "yes" : "no");
     bool kept = true;
     for (const Case& c : all_cases()) {
-        const std::string name = fmt::format("{}, {}, {}", c.group, c.name, c.mode);
+        const std::string name = full_name(c);
         if (name.find(part) == std::string::npos) continue;
-        Errors errors;
-        c.run(errors, static_cast<std::uint64_t>(times * static_cast<double>(c.trials * c.times_on_page)));
+        const auto trials = static_cast<std::uint64_t>(times * static_cast<double>(c.trials * c.times_on_page));
+        const Errors errors = errors_of(c, trials);
         std::cout << fmt::format("\"{}\",\"{}\",\"{}\",{},{:.6g},{:.6g},{:g},\"{}\"\n", c.group, c.name, c.mode,
                                  errors.count(), errors.worst(), errors.quantile(0.999), c.limit, c.unit);
         if (errors.worst() <= c.limit) continue;

@@ -245,8 +245,8 @@ void smooth_out(Errors& errors, Dice& dice, const Pipeline& how) {
 // --- numbers ------------------------------------------------------------------------------------------------------
 
 /// Pixels that are no numbers, and samples dropped where none should be.
-void render_wild_scenes(Errors& errors, const Pipeline& how, std::uint64_t scenes, double away, bool may_drop) {
-    Dice dice(5);
+void render_wild_scenes(Errors& errors, Dice& dice, const Pipeline& how, std::uint64_t scenes, double away,
+                        bool may_drop) {
     for (std::uint64_t i = 0; i < scenes; ++i) {
         const auto result = render(wild(dice, away), how);
         double lost = may_drop ? 0 : static_cast<double>(result.stats.dropped_samples);
@@ -263,8 +263,7 @@ void add_pictures(std::vector<Case>& cases) {
         const auto add = [&](const std::string& name, const char* unit, double limit, std::uint64_t trials,
                              const auto& trial) {
             cases.push_back({"pictures", name, how.mode, unit, limit, trials,
-                             [trial, how, seed = cases.size()](Errors& errors, std::uint64_t count) {
-                                 Dice dice(seed);
+                             [trial, how](Errors& errors, std::uint64_t count, Dice& dice) {
                                  for (std::uint64_t i = 0; i < count; ++i) trial(errors, dice, how);
                              }});
         };
@@ -284,9 +283,10 @@ void add_pictures(std::vector<Case>& cases) {
         add("rho 0", "other pixels", 0, 2, reflect_nothing);
         add("rho 1 in a white world", "u", 10, 2, reflect_all);
         const auto add_wild = [&](const char* name, const char* unit, double away, bool may_drop) {
-            cases.push_back({"pictures", name, how.mode, unit, 0, 60, [=](Errors& errors, std::uint64_t scenes) {
-                                 render_wild_scenes(errors, how, scenes, away, may_drop);
-                             }});
+            cases.push_back(
+                {"pictures", name, how.mode, unit, 0, 60, [=](Errors& errors, std::uint64_t scenes, Dice& dice) {
+                     render_wild_scenes(errors, dice, how, scenes, away, may_drop);
+                 }});
         };
         add_wild("of anything at any size", "samples dropped, pixels not finite", 1e3, false);
         // Up to where all coordinates are the same number: samples that are no number are dropped and counted.

@@ -206,8 +206,7 @@ template <class V, class Make>
 void add(std::vector<Case>& cases, const char* name, const Limits& verdict, const Limits& hit, const Make& make) {
     const auto add_one = [&](const char* group, double limit, auto error_of) {
         cases.push_back({group, name, mode_name<V>(), "u (f + r)", limit, 4000,
-                         [make, error_of, seed = cases.size()](Errors& errors, std::uint64_t trials) {
-                             Dice dice(seed);
+                         [make, error_of](Errors& errors, std::uint64_t trials, Dice& dice) {
                              for (std::uint64_t i = 0; i < trials; ++i) {
                                  const auto p = make(dice);
                                  errors.add(error_of(p), [&] { return text_of(p); });

@@ -90,26 +90,30 @@ void light_with_every_power(Errors& errors, const Pipeline& how) {
 
 void add_sums(std::vector<Case>& cases) {
     const auto add = [&](const char* name, const char* mode, const char* unit, double limit, std::uint64_t trials,
-                         std::function<void(Errors&, std::uint64_t)> run) {
+                         std::function<void(Errors&, std::uint64_t, Dice&)> run) {
         cases.push_back({"sums", name, mode, unit, limit, trials, std::move(run)});
     };
-    add("2^26 samples of one pixel", "all", "u", 1, 1, [](Errors& errors, std::uint64_t) { add_up(errors, 1 << 26); });
+    add("2^26 samples of one pixel", "all", "u", 1, 1,
+        [](Errors& errors, std::uint64_t, Dice&) { add_up(errors, 1 << 26); });
     add("one sample of 1e30 among 2^20", "all", "u", 1, 1,
-        [](Errors& errors, std::uint64_t) { add_one_giant(errors, 1 << 20); });
+        [](Errors& errors, std::uint64_t, Dice&) { add_one_giant(errors, 1 << 20); });
     // A sample's radiance is summed in float: ten thousand terms that are no round numbers may add up half a rounding
     // each, 3e-4 in all.
     for (const Pipeline& how : pipelines()) {
         const double terms = how.precision == Precision::binary32 ? 5000 : 1;
-        add("10 000 diffuse reflections, rho 1", how.mode, "u", 0, 1,
-            [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, how, diffuse(dvec3{1}), 1); });
+        add("10 000 diffuse reflections, rho 1", how.mode, "u", 0, 1, [=](Errors& errors, std::uint64_t, Dice&) {
+            reflect_ten_thousand_times(errors, how, diffuse(dvec3{1}), 1);
+        });
         add("10 000 diffuse reflections, rho 1, radiance 0.1", how.mode, "u", terms, 1,
-            [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, how, diffuse(dvec3{1}), 0.1); });
+            [=](Errors& errors, std::uint64_t, Dice&) {
+                reflect_ten_thousand_times(errors, how, diffuse(dvec3{1}), 0.1);
+            });
         add("10 000 mirror reflections, rho 1", how.mode, "u", 0, 1,
-            [=](Errors& errors, std::uint64_t) { reflect_ten_thousand_times(errors, how, mirror(1), 1); });
+            [=](Errors& errors, std::uint64_t, Dice&) { reflect_ten_thousand_times(errors, how, mirror(1), 1); });
         add("10 000 lights for one", how.mode, "u", terms, 1,
-            [=](Errors& errors, std::uint64_t) { share_among_lights(errors, how); });
+            [=](Errors& errors, std::uint64_t, Dice&) { share_among_lights(errors, how); });
         add("powers of 1e-30 and 1e30", how.mode, "u", 8, 1,
-            [=](Errors& errors, std::uint64_t) { light_with_every_power(errors, how); });
+            [=](Errors& errors, std::uint64_t, Dice&) { light_with_every_power(errors, how); });
     }
 }
 
