@@ -90,14 +90,15 @@ void intersect_noted(const Spheres& spheres, const Rays& rays, std::uint32_t cou
     (session->forward.*stage)(spheres, rays, count, hits);
 }
 
-void emission_noted(const Spheres& spheres, const EmissionTable<float>& lights, LightStrategy strategy,
-                    const Rays& rays, const Hits& hits, std::uint32_t count, const Slots& slots) {
+void emission_noted(const Spheres& spheres, const LightTable<float>& lights, const Background<float>& background,
+                    LightStrategy strategy, const Rays& rays, const Hits& hits, std::uint32_t count,
+                    const Slots& slots) {
     note("emission", count, bytes_of(hits) + 3 * vector3 + 2 * word, radiance_part | ray_part | hit_part, count,
-         radiance_part, [spheres, lights, strategy, count](const Table& s, WaveStorage<float>& w) {
-             s.emission(spheres, lights, strategy, w.rays, w.hits, count, w.slots);
+         radiance_part, [spheres, lights, background, strategy, count](const Table& s, WaveStorage<float>& w) {
+             s.emission(spheres, lights, background, strategy, w.rays, w.hits, count, w.slots);
              return whole(count);
          });
-    session->forward.emission(spheres, lights, strategy, rays, hits, count, slots);
+    session->forward.emission(spheres, lights, background, strategy, rays, hits, count, slots);
 }
 
 bool sort_noted(const Spheres& spheres, std::uint32_t kinds, const Rays& rays, const Hits& hits, std::uint32_t count,
@@ -112,16 +113,13 @@ bool sort_noted(const Spheres& spheres, std::uint32_t kinds, const Rays& rays, c
     return session->forward.sort_by_scattering(spheres, kinds, rays, hits, count, sorted_rays, sorted_hits, runs);
 }
 
-constexpr const char* scatter_names[scattering_count] = {"scatter diffuse", "scatter specular", "scatter glossy",
-                                                         "scatter dielectric", "scatter translucent"};
-
 template <std::uint32_t kind>
 void scatter_noted(const ScatterContext<float>& context, Range run, const Rays& rays, const Hits& hits,
                    const Lobes& lobes) {
-    constexpr bool rough = kind == static_cast<std::uint32_t>(Scattering::glossy) ||
-                           kind == static_cast<std::uint32_t>(Scattering::translucent);
-    note(scatter_names[kind], run.count, 2 * bytes_of(rays) + bytes_of(hits) + (rough ? bytes_of(lobes) : 0),
-         slot_part | ray_part | hit_part, run.begin + run.count, ray_part | (rough ? lobe_part : 0u),
+    constexpr bool rough = scattering_traits[kind].is_rough();
+    note(std::string("scatter ") + scattering_traits[kind].name, run.count,
+         2 * bytes_of(rays) + bytes_of(hits) + (rough ? bytes_of(lobes) : 0), slot_part | ray_part | hit_part,
+         run.begin + run.count, ray_part | (rough ? lobe_part : 0u),
          [context, run](const Table& s, WaveStorage<float>& w) {
              ScatterContext<float> here = context;
              here.slots = w.slots;
@@ -134,27 +132,18 @@ void scatter_noted(const ScatterContext<float>& context, Range run, const Rays& 
 }
 
 template <std::size_t response>
-Table::ConnectPoint point_entry(const Table& table) {
-    return table.connect_point[response];
-}
-template <std::size_t strategy, std::size_t response>
-Table::ConnectArea area_entry(const Table& table) {
-    return table.connect_area[strategy][response];
-}
-
-/// Vertices towards a light of either kind: `of` finds the entry in a table.
-template <auto of, class Light>
-std::uint32_t connect_noted(const ConnectContext<float>& context, const Light& light, Range run, const Rays& rays,
+std::uint32_t connect_noted(const ConnectContext<float>& context, std::uint32_t light, Range run, const Rays& rays,
                             const Lobes& lobes, const Shadows& queue) {
-    const bool point = std::is_same_v<Light, kernels::PointLight<float>>;
-    note(point ? "connect point" : "connect area", run.count,
-         2 * vector3 + 4 * word + bytes_of(lobes) + bytes_of(queue), slot_part | ray_part | lobe_part,
+    note(light == chosen_light           ? "connect chosen"
+         : light < context.lights.points ? "connect point"
+                                         : "connect area",
+         run.count, 2 * vector3 + 4 * word + bytes_of(lobes) + bytes_of(queue), slot_part | ray_part | lobe_part,
          run.begin + run.count, shadow_part, [context, light, run](const Table& s, WaveStorage<float>& w) {
              ConnectContext<float> here = context;
              here.slots = w.slots;
-             return whole(of(s)(here, light, run, w.rays, w.lobes, w.shadows));
+             return whole(s.connect[response](here, light, run, w.rays, w.lobes, w.shadows));
          });
-    return of(session->forward)(context, light, run, rays, lobes, queue);
+    return session->forward.connect[response](context, light, run, rays, lobes, queue);
 }
 
 template <Table::Shadow Table::*stage>
@@ -193,12 +182,8 @@ Table noting(const Table& forward) {
         ((table.scatter[kind] = scatter_noted<kind>), ...);
     }
     (std::make_integer_sequence<std::uint32_t, scattering_count>{});
-    table.connect_point[0] = connect_noted<point_entry<0>, kernels::PointLight<float>>;
-    table.connect_point[1] = connect_noted<point_entry<1>, kernels::PointLight<float>>;
-    table.connect_area[0][0] = connect_noted<area_entry<0, 0>, kernels::AreaLight<float>>;
-    table.connect_area[0][1] = connect_noted<area_entry<0, 1>, kernels::AreaLight<float>>;
-    table.connect_area[1][0] = connect_noted<area_entry<1, 0>, kernels::AreaLight<float>>;
-    table.connect_area[1][1] = connect_noted<area_entry<1, 1>, kernels::AreaLight<float>>;
+    table.connect[0] = connect_noted<0>;
+    table.connect[1] = connect_noted<1>;
     table.shadow = shadow_noted<&Table::shadow>;
     table.shadow_coherent = shadow_noted<&Table::shadow_coherent>;
     table.shadow_tree = shadow_noted<&Table::shadow_tree>;

@@ -1,4 +1,5 @@
-// Stage `shade`, last step: the vertices of a run towards one light -> shadow queue.
+// Stage `shade`, last step: direct lighting. The vertices of a run, all towards one light or each towards the one its
+// random number chooses -> shadow queue.
 //
 // Runs after `scatter`: a ray's origin is the vertex, `left` its sphere and side, and its throughput already holds the
 // surface's weight, so that what is missing is density of scattering over density of light sampling.
@@ -15,33 +16,45 @@ template <class Real>
 struct ConnectContext {
     SphereTable<Real> spheres;
     MaterialTable<Real> materials;
+    LightTable<Real> lights;
     SlotTable<Real> slots;
     std::uint32_t seed = 0;
     std::uint32_t bounce = 0;
-    std::uint32_t light = 0;  ///< number of the light, for its random numbers
+    LightStrategy strategy = LightStrategy::area;
     /// Whether the light sample competes with scattering that may find the light as well (mis).
     bool competing = false;
 };
 
-/// Which density a vertex scatters with.
-enum class Response { diffuse, glossy };
+/// In place of a light's number: every vertex chooses its own.
+inline constexpr std::uint32_t chosen_light = 0xFFFFFFFFu;
+
+/// A vector of vertices, as the lights' samplers see it.
+template <class V>
+struct LitVertex {
+    std::uint32_t i;  ///< place in the ray queue
+    Vec3<typename V::F> position;
+    Vec3<typename V::F> normal;  ///< unit length, on the side the vertex scatters into
+    typename V::U sphere;        ///< id without side
+    typename V::M inward;        ///< it scatters into the sphere
+};
 
 /// Scattering density per solid angle towards `direction`; the cosine is part of it. 0 below the horizon.
 template <class V, Response response>
 ORRERY_INLINE typename V::F response_pdf(const ConnectContext<typename V::Real>& context,
-                                         const LobeQueue<typename V::Real>& lobes, std::uint32_t i,
-                                         const typename V::U& sphere, const Vec3<typename V::F>& normal,
+                                         const LobeQueue<typename V::Real>& lobes, const LitVertex<V>& vertex,
                                          const Vec3<typename V::F>& direction) {
     using F = typename V::F;
     using U = typename V::U;
-    const F cosine = dot(normal, direction);
+    const F cosine = dot(vertex.normal, direction);
     if constexpr (response == Response::diffuse) {
         return max(cosine, F(0)) * F(static_cast<typename V::Real>(std::numbers::inv_pi));
     } else {
-        const U material = lookup<U>(context.spheres.surface, sphere, context.spheres.count) & U(surface_material_mask);
+        const U material =
+            lookup<U>(context.spheres.surface, vertex.sphere, context.spheres.count) & U(surface_material_mask);
         const F beta = lookup<F>(context.materials.roughness, material, context.materials.count);
+        const std::uint32_t i = vertex.i;
         const auto lobe = load3<V>(lobes.x + i, lobes.y + i, lobes.z + i);
-        return glossy_pdf<V>(lobe, max(dot(lobe, normal), F(0)), beta, direction, cosine);
+        return glossy_pdf<V>(lobe, max(dot(lobe, vertex.normal), F(0)), beta, direction, cosine);
     }
 }
 
@@ -66,74 +79,40 @@ ORRERY_INLINE std::uint32_t append_shadow(const ShadowQueue<typename V::Real>& q
     return size + static_cast<std::uint32_t>(std::popcount(chosen));
 }
 
-/// A vector of vertices, as the samplers of lights see it.
+/// The light that the numbers z and w in [0, 1) choose. Exact: the cell is the top bits of z, and w is compared with a
+/// multiple of its last place.
 template <class V>
-struct LitVertex {
-    std::uint32_t i;  ///< place in the ray queue
-    Vec3<typename V::F> position;
-    Vec3<typename V::F> normal;  ///< unit length, on the side the vertex scatters into
-    typename V::U sphere;        ///< id without side
-    typename V::M inward;        ///< it scatters into the sphere
-    typename V::U slot;
-};
-
-/// What a light sample brings to a vertex.
-template <class V>
-struct Arrival {
-    Vec3<typename V::F> direction;  ///< unit length, towards the light
-    typename V::F inverse_distance;
-    typename V::F factor;   ///< of the light's colour, surface weight excluded
-    typename V::M arrives;  ///< also where the factor is no number: the film counts it
-};
-
-/// Light samples from a point light.
-template <class V, Response response>
-struct PointSampler {
-    static constexpr bool has_targets = false;  ///< all segments end on the same sphere, or on none
-    const ConnectContext<typename V::Real>& context;
-    const PointLight<typename V::Real>& light;
-    const LobeQueue<typename V::Real>& lobes;
-
-    ORRERY_INLINE Arrival<V> operator()(const RayQueue<typename V::Real>&, const LitVertex<V>& vertex) const {
-        using F = typename V::F;
-        const Vec3<F> to = Vec3<F>{F(light.px), F(light.py), F(light.pz)} - vertex.position;
-        const F distance2 = dot(to, to);
-        const F inverse_distance = F(1) / root(distance2);
-        const Vec3<F> direction = to * inverse_distance;
-        const F pdf = response_pdf<V, response>(context, lobes, vertex.i, vertex.sphere, vertex.normal, direction);
-        return {direction, inverse_distance, pdf * inverse_distance * inverse_distance,
-                !(pdf <= F(0)) && distance2 > F(0)};
-    }
-    ORRERY_INLINE Vec3<typename V::F> colour(const Arrival<V>&) const {
-        using F = typename V::F;
-        return {F(light.r), F(light.g), F(light.b)};
-    }
-};
+ORRERY_INLINE typename V::U choose_light(const LightTable<typename V::Real>& lights, const typename V::F& z,
+                                         const typename V::F& w) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const U cell = truncate_to_word(z * F(static_cast<typename V::Real>(lights.cells)));
+    const auto own = w < lookup<F>(lights.share, cell, lights.cells);
+    return choose(own, cell, lookup<U>(lights.other, cell, lights.cells));
+}
 
 /// A point of the sphere `id`, sampled from the vertex: from outside or from within, or from its own inner side. From
 /// its own outer side nothing of it is seen. (By reference: what is returned g++ 12 moves through memory, a sixth of
 /// all instructions of connect_area on AVX2.)
-template <class V, LightStrategy strategy>
-ORRERY_INLINE void sample_sphere(const LitVertex<V>& vertex, const Sphere<typename V::F>& sphere,
-                                 const typename V::U& id, const RandomNumbers<typename V::F>& random,
-                                 LightSample<V>& sample) {
+template <class V>
+ORRERY_INLINE void sample_sphere(LightStrategy strategy, const LitVertex<V>& vertex,
+                                 const Sphere<typename V::F>& sphere, const typename V::U& id,
+                                 const RandomNumbers<typename V::F>& random, LightSample<V>& sample) {
     using F = typename V::F;
     // On the light itself its side is known; elsewhere the power of the point tells, as it tells `first_root` where a
     // ray meets the light: from a point on its surface (0) only from within.
     const auto own = words_equal(vertex.sphere, id);
     const auto within = power_of_point(vertex.position - sphere.centre, sphere.radius2) <= F(0);
     const auto inside = (own && vertex.inward) || (!own && within);
-    if constexpr (strategy == LightStrategy::cone) {
-        sample = sample_light_cone<V>(vertex.position, sphere, random.x, random.y);
-        if (any(inside)) {
-            const auto by_area = sample_light_area<V>(vertex.position, sphere, inside, random.x, random.y);
-            sample.direction = choose(inside, by_area.direction, sample.direction);
-            sample.inverse_distance = choose(inside, by_area.inverse_distance, sample.inverse_distance);
-            sample.inverse_pdf = choose(inside, by_area.inverse_pdf, sample.inverse_pdf);
-            sample.valid = (inside && by_area.valid) || (!inside && sample.valid);
+    const bool cone = strategy == LightStrategy::cone;
+    if (cone) sample = sample_light_cone<V>(vertex.position, sphere, random.x, random.y);
+    if (!cone || any(inside)) {
+        const auto by_area = sample_light_area<V>(vertex.position, sphere, inside, random.x, random.y);
+        if (cone) {
+            replace(sample, inside, by_area);
+        } else {
+            sample = by_area;
         }
-    } else {
-        sample = sample_light_area<V>(vertex.position, sphere, inside, random.x, random.y);
     }
     sample.valid = sample.valid && (inside || !own);
 }
@@ -147,43 +126,24 @@ ORRERY_INLINE F shared_ratio(const F& ratio) {
     return bounded / (F(1) + bounded);
 }
 
-/// Light samples from a sphere, density of scattering over density of light sampling; weighed against scattering by the
-/// balance heuristic where the two compete.
-template <class V, Response response, LightStrategy strategy>
-struct AreaSampler {
-    static constexpr bool has_targets = false;
-    const ConnectContext<typename V::Real>& context;
-    const AreaLight<typename V::Real>& light;
-    const LobeQueue<typename V::Real>& lobes;
+/// What the vertices of a run aim at: a point or a sphere that is the same for all, or each at a light of its choice.
+enum class Aim { point, sphere, chosen };
 
-    ORRERY_INLINE Arrival<V> operator()(const RayQueue<typename V::Real>& rays, const LitVertex<V>& vertex) const {
-        using F = typename V::F;
-        using U = typename V::U;
-        const Sphere<F> sphere{
-            {F(light.cx), F(light.cy), F(light.cz)}, F(light.radius), F(light.radius * light.radius)};
-        const RandomKey key{context.seed, Dimension::light, context.light};
-        const auto random = random_for<V, 2>(context.slots, rays, vertex.i, key, context.bounce, vertex.slot);
-        LightSample<V> sample;
-        sample_sphere<V, strategy>(vertex, sphere, U(light.sphere), random, sample);
-        const F pdf =
-            response_pdf<V, response>(context, lobes, vertex.i, vertex.sphere, vertex.normal, sample.direction);
-        F ratio = pdf * sample.inverse_pdf;
-        if (context.competing) ratio = shared_ratio(ratio);
-        return {sample.direction, sample.inverse_distance, ratio, sample.valid && !(ratio <= F(0))};
-    }
-    ORRERY_INLINE Vec3<typename V::F> colour(const Arrival<V>&) const {
-        using F = typename V::F;
-        return {F(light.r), F(light.g), F(light.b)};
-    }
-};
-
-/// The vertices of a run towards their light, a vector at a time. Returns the number of shadow rays.
-template <class V, class Sampler>
-ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<typename V::Real>& context, Range run,
-                                        const RayQueue<typename V::Real>& rays, const Sampler& sampler,
+/// The vertices of a run towards `light`, a vector at a time. What arrives is the density of scattering over that of
+/// light sampling, weighed against scattering by the balance heuristic where the two compete; of a point its inverse
+/// square.
+template <class V, Response response, Aim aim>
+ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<typename V::Real>& context, std::uint32_t light, Range run,
+                                        const RayQueue<typename V::Real>& rays,
+                                        const LobeQueue<typename V::Real>& lobes,
                                         const ShadowQueue<typename V::Real>& queue) {
     using F = typename V::F;
     using U = typename V::U;
+    const auto& spheres = context.spheres;
+    const auto& lights = context.lights;
+    constexpr int dimensions = aim == Aim::point ? 0 : aim == Aim::sphere ? 2 : 4;
+    const RandomKey key{context.seed, Dimension::light, aim == Aim::sphere ? light - lights.points : 0};
+    if constexpr (dimensions > 0) draw<V, dimensions>(context.slots, rays, run, key, context.bounce);
     std::uint32_t size = 0;
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
@@ -193,36 +153,71 @@ ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<typename V::Real>& 
         const U id = left & U(no_sphere);
         const auto inward = !words_equal(left, id);
         const auto p = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
-        const auto& spheres = context.spheres;
         const auto centre = lookup3<V>(spheres.cx, spheres.cy, spheres.cz, id, spheres.count);
         const Vec3<F> outward = (p - centre) * lookup<F>(spheres.inverse_radius, id, spheres.count);
-        const Vec3<F> normal = choose(inward, outward * F(-1), outward);
-        const auto light = sampler(rays, LitVertex<V>{i, p, normal, id, inward, slot});
-        const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
-        const std::uint32_t chosen = bits(light.arrives && in_run && !carries_nothing(throughput));
-        if (chosen == 0) continue;
-        if constexpr (Sampler::has_targets) {
-            if (queue.target != nullptr) compress_store<V>(queue.target + size, sampler.target(light), chosen);
+        const LitVertex<V> vertex{i, p, choose(inward, outward * F(-1), outward), id, inward};
+
+        RandomNumbers<F> random{};
+        if constexpr (dimensions > 0) random = random_for<V, dimensions>(context.slots, rays, i, key, context.bounce);
+        U chosen_one(0u);
+        if constexpr (aim == Aim::chosen) chosen_one = choose_light<V>(lights, random.z, random.w);
+        const auto of = [&]<class Element>(const Element* column) ORRERY_INLINE_LAMBDA {
+            using T = std::conditional_t<std::is_floating_point_v<Element>, F, U>;
+            if constexpr (aim == Aim::chosen) {
+                return lookup<T>(column, chosen_one, lights.count);
+            } else {
+                return T(column[light]);
+            }
+        };
+        const F radius = of(lights.radius);
+        const Sphere<F> source{{of(lights.px), of(lights.py), of(lights.pz)}, radius, radius * radius};
+        const auto is_sphere = radius > F(0);
+        LightSample<V> sample;
+        if constexpr (aim == Aim::sphere) {
+            sample_sphere<V>(context.strategy, vertex, source, of(lights.sphere), random, sample);
+        } else {
+            sample = sample_point<V>(p, source.centre);
         }
-        size = append_shadow<V>(queue, size, p, light.direction, light.inverse_distance,
-                                throughput * (sampler.colour(light) * light.factor), left, slot, chosen);
+        if constexpr (aim == Aim::chosen) {
+            if (any(is_sphere)) {
+                LightSample<V> on;
+                sample_sphere<V>(context.strategy, vertex, source, of(lights.sphere), random, on);
+                replace(sample, is_sphere, on);
+            }
+        }
+        const F pdf = response_pdf<V, response>(context, lobes, vertex, sample.direction);
+        F ratio = pdf * sample.inverse_pdf;
+        if constexpr (aim == Aim::point) ratio = pdf * sample.inverse_distance * sample.inverse_distance;
+        if constexpr (aim == Aim::chosen) ratio = ratio * of(lights.inverse_probability);
+        if (aim != Aim::point && context.competing) {
+            const F shared = shared_ratio(ratio);
+            ratio = aim == Aim::sphere ? shared : choose(is_sphere, shared, ratio);
+        }
+
+        // Also where the ratio is no number: the film counts it.
+        const auto arrives = sample.valid && !(ratio <= F(0));
+        const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
+        const std::uint32_t chosen = bits(arrives && in_run && !carries_nothing(throughput));
+        if (chosen == 0) continue;
+        if constexpr (aim == Aim::chosen) {
+            if (queue.target != nullptr) compress_store<V>(queue.target + size, of(lights.sphere), chosen);
+        }
+        const Vec3<F> colour{of(lights.r), of(lights.g), of(lights.b)};
+        size = append_shadow<V>(queue, size, p, sample.direction, sample.inverse_distance,
+                                throughput * (colour * ratio), left, slot, chosen);
     }
     return size;
 }
 
+/// Returns the number of shadow rays. `light` is a light's number, or chosen_light where the table has cells.
 template <class V, Response response>
-std::uint32_t connect_point(const ConnectContext<typename V::Real>& context, const PointLight<typename V::Real>& light,
-                            Range run, const RayQueue<typename V::Real>& rays, const LobeQueue<typename V::Real>& lobes,
-                            const ShadowQueue<typename V::Real>& queue) {
-    return connect_run<V>(context, run, rays, PointSampler<V, response>{context, light, lobes}, queue);
-}
-
-template <class V, Response response, LightStrategy strategy>
-std::uint32_t connect_area(const ConnectContext<typename V::Real>& context, const AreaLight<typename V::Real>& light,
-                           Range run, const RayQueue<typename V::Real>& rays, const LobeQueue<typename V::Real>& lobes,
-                           const ShadowQueue<typename V::Real>& queue) {
-    draw<V, 2>(context.slots, rays, run, {context.seed, Dimension::light, context.light}, context.bounce);
-    return connect_run<V>(context, run, rays, AreaSampler<V, response, strategy>{context, light, lobes}, queue);
+std::uint32_t connect(const ConnectContext<typename V::Real>& context, std::uint32_t light, Range run,
+                      const RayQueue<typename V::Real>& rays, const LobeQueue<typename V::Real>& lobes,
+                      const ShadowQueue<typename V::Real>& queue) {
+    if (light == chosen_light) return connect_run<V, response, Aim::chosen>(context, light, run, rays, lobes, queue);
+    if (light < context.lights.points)
+        return connect_run<V, response, Aim::point>(context, light, run, rays, lobes, queue);
+    return connect_run<V, response, Aim::sphere>(context, light, run, rays, lobes, queue);
 }
 
 }  // namespace orrery::kernels

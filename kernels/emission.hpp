@@ -29,23 +29,26 @@ ORRERY_INLINE void add_radiance(const SlotTable<typename V::Real>& slots, const 
     add_to_rows<V>(slots.radiance, choose(chosen, slot, U(0u)), choose(chosen, radiance, none));
 }
 
+/// `lights` are all that a vertex may sample, with their probabilities where it samples one of them.
 template <class V>
-void emission(const SphereTable<typename V::Real>& spheres, const EmissionTable<typename V::Real>& lights,
-              LightStrategy strategy, const RayQueue<typename V::Real>& rays, const HitQueue<typename V::Real>& hits,
-              std::uint32_t count, const SlotTable<typename V::Real>& slots) {
+void emission(const SphereTable<typename V::Real>& spheres, const LightTable<typename V::Real>& lights,
+              const Background<typename V::Real>& background, LightStrategy strategy,
+              const RayQueue<typename V::Real>& rays, const HitQueue<typename V::Real>& hits, std::uint32_t count,
+              const SlotTable<typename V::Real>& slots) {
     using F = typename V::F;
     using U = typename V::U;
-    const Vec3<F> background{F(lights.background_r), F(lights.background_g), F(lights.background_b)};
+    const bool emitters = lights.count > lights.points;
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const auto live = first_lanes<V>(count - i);
         const U hit = load<U>(hits.id + i);
         const auto missed = words_equal(hit, U(no_sphere)) && live;
         const U id = choose(live && !missed, hit & U(no_sphere), U(0u));
-        if (lights.has_background && any(missed)) {
+        if (background.shines() && any(missed)) {
             const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
-            add_radiance<V>(slots, load<U>(rays.slot + i), throughput * background, missed);
+            const Vec3<F> radiance{F(background.r), F(background.g), F(background.b)};
+            add_radiance<V>(slots, load<U>(rays.slot + i), throughput * radiance, missed);
         }
-        if (!lights.has_emitters) continue;
+        if (!emitters) continue;
         const U surface = lookup<U>(spheres.surface, id, spheres.count);
         const auto emits = live && !missed && words_equal(surface & U(surface_emits), U(surface_emits));
         if (!any(emits)) continue;

@@ -60,6 +60,7 @@ void generate(const CameraTable<typename V::Real>& camera, const SlotTable<typen
         save(rays.slot + i, lane + U(Word{i}));
         save(rays.pixel + i, pixel);
         save(rays.sample + i, sample);
+        if (rays.vertex != nullptr) save(rays.vertex + i, U(Word{1}));
         for (std::uint32_t c = 0; c < 4; ++c) save(slots.radiance + 4 * i + c * V::count, zero);
     }
 }

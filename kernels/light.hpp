@@ -1,4 +1,4 @@
-// Sampling a spherical light from a point, and the density of that sampling: one pair per strategy.
+// Sampling a light from a vertex, and the density of that sampling: a point, and a sphere by one pair per strategy.
 #pragma once
 
 #include "kernels/sampling.hpp"
@@ -13,6 +13,25 @@ struct LightSample {
     typename V::F inverse_pdf;       ///< 1 / density per solid angle, > 0 where valid
     typename V::M valid;
 };
+
+/// sample = other in the lanes of `where`.
+template <class V>
+ORRERY_INLINE void replace(LightSample<V>& sample, const typename V::M& where, const LightSample<V>& other) {
+    sample.direction = choose(where, other.direction, sample.direction);
+    sample.inverse_distance = choose(where, other.inverse_distance, sample.inverse_distance);
+    sample.inverse_pdf = choose(where, other.inverse_pdf, sample.inverse_pdf);
+    sample.valid = (where && other.valid) || (!where && sample.valid);
+}
+
+/// The one direction there is. The inverse square of the distance takes the place of 1 / density.
+template <class V>
+ORRERY_INLINE LightSample<V> sample_point(const Vec3<typename V::F>& p, const Vec3<typename V::F>& light) {
+    using F = typename V::F;
+    const Vec3<F> to = light - p;
+    const F distance2 = dot(to, to);
+    const F inverse_distance = F(1) / root(distance2);
+    return {to * inverse_distance, inverse_distance, inverse_distance * inverse_distance, distance2 > F(0)};
+}
 
 /// Uniform over the surface, p = 1/A. From outside only the half facing `p` is seen, from inside all of it.
 template <class V>

@@ -38,6 +38,8 @@ struct RayQueue {
     Word* slot;          ///< which (pixel, sample) of the wave
     Word* pixel;   ///< the slot's pixel and sample as they are there, keys of randomness: carried along, as moving
     Word* sample;  ///< two words with the ray costs less than gathering them by slot at a vertex's four uses
+    Word* vertex;  ///< Whitted: the ray's node in the slot's ray tree, root 1, children 2n and 2n + 1. Null for paths,
+                   ///< where all rays have the number of the bounce.
 
     template <class Visit>
     ORRERY_INLINE static void each_field(Visit&& visit) {
@@ -46,7 +48,7 @@ struct RayQueue {
         visit("tr", &RayQueue::tr), visit("tg", &RayQueue::tg), visit("tb", &RayQueue::tb);
         visit("pdf", &RayQueue::pdf), visit("eta_scale", &RayQueue::eta_scale);
         visit("left", &RayQueue::left), visit("slot", &RayQueue::slot);
-        visit("pixel", &RayQueue::pixel), visit("sample", &RayQueue::sample);
+        visit("pixel", &RayQueue::pixel), visit("sample", &RayQueue::sample), visit("vertex", &RayQueue::vertex);
     }
 };
 
@@ -118,14 +120,13 @@ struct SlotTable {
     using Word = WordOf<Real>;
     Word* pixel;              ///< y * width + x
     Word* sample;             ///< sample number within the pixel; where there are `points`, bits reversed
-    Word* node;               ///< Whitted: node of the ray tree the slot's ray is, root 1, children 2n and 2n + 1
     Real *plane_x, *plane_y;  ///< corner of the sample's cell on the image plane at distance 1
     Real* radiance;           ///< gathered so far: r, g, b and one unused, four numbers per slot
     PointQueue<Real> points;  ///< present where samples are points of Sobol's sequences
 
     template <class Visit>
     ORRERY_INLINE static void each_field(Visit&& visit) {
-        visit("pixel", &SlotTable::pixel), visit("sample", &SlotTable::sample), visit("node", &SlotTable::node);
+        visit("pixel", &SlotTable::pixel), visit("sample", &SlotTable::sample);
         visit("plane_x", &SlotTable::plane_x), visit("plane_y", &SlotTable::plane_y);
         visit("radiance", &SlotTable::radiance);
     }
@@ -138,8 +139,7 @@ struct BranchStack {
     std::uint32_t slots = 0;   ///< stride between levels
     std::uint32_t levels = 0;  ///< the greatest depth: depth-first, one branch per level is pending at most
     Word* height = nullptr;    ///< by slot: pending branches
-    RayQueue<Real> rays{};     ///< levels * slots entries
-    Word* node = nullptr;      ///< by entry
+    RayQueue<Real> rays{};     ///< levels * slots entries; without pixel and sample, which the slot knows
 };
 
 /// A run of a queue; begin is a multiple of `widest`.

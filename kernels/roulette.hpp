@@ -13,7 +13,6 @@ template <class V>
 std::uint32_t roulette(const SlotTable<typename V::Real>& slots, std::uint32_t seed, std::uint32_t bounce, bool play,
                        const Runs& runs, const RayQueue<typename V::Real>& rays) {
     using F = typename V::F;
-    using U = typename V::U;
     const RandomKey key{seed, Dimension::roulette, 0};
     std::uint32_t size = 0;
     for (const Range& run : runs.run) {
@@ -27,8 +26,7 @@ std::uint32_t roulette(const SlotTable<typename V::Real>& slots, std::uint32_t s
             if (play && any(alive)) {
                 const F scale = rays.eta_scale != nullptr ? load<F>(rays.eta_scale + i) : F(1);
                 const F q = min(carried / scale, F(1));
-                const U slot = choose(in_run, load<U>(rays.slot + i), U(0u));
-                const F u = random_for<V, 1>(slots, rays, i, key, bounce, slot).x;
+                const F u = random_for<V, 1>(slots, rays, i, key, bounce).x;
                 // What is no number lives on, whichever channel it is in.
                 const F sum = throughput.x + throughput.y + throughput.z;
                 alive = alive && (u < q || !(sum == sum));

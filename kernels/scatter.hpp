@@ -40,19 +40,12 @@ ORRERY_INLINE Vec3<typename V::F> reflectance_of(const MaterialTable<typename V:
     return lookup3<V>(materials.rho_r, materials.rho_g, materials.rho_b, material, materials.count);
 }
 
-constexpr bool is_interface(Scattering kind) {
-    return kind == Scattering::dielectric || kind == Scattering::translucent;
-}
-/// How many random numbers a way of scattering takes.
-constexpr int dimensions_of(Scattering kind) { return kind == Scattering::specular ? 0 : is_interface(kind) ? 3 : 2; }
-constexpr bool is_rough(Scattering kind) { return kind == Scattering::glossy || kind == Scattering::translucent; }
-
 /// Throughput factor, radiance scaling by eta included.
 template <class V, Scattering kind>
 ORRERY_INLINE Vec3<typename V::F> weight_of(const MaterialTable<typename V::Real>& materials,
                                             const typename V::U& material, const Scattered<V>& out) {
     const auto rho = reflectance_of<V>(materials, material);
-    if constexpr (is_interface(kind)) {
+    if constexpr (traits_of(kind).is_interface) {
         // One lobe at random, chosen with probability F: what F multiplies cancels.
         const auto tau = lookup3<V>(materials.tau_r, materials.tau_g, materials.tau_b, material, materials.count);
         return choose(out.transmits, tau * out.eta_scale, rho);
@@ -86,7 +79,7 @@ ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<typename V::Real>& co
         out.lobe = reflected(direction, vertex.normal, vertex.cosine);
         F lobe_cosine = vertex.cosine;
         Vec3<F> normal = vertex.normal;  // on the side the lobe leaves
-        if constexpr (is_interface(kind)) {
+        if constexpr (traits_of(kind).is_interface) {
             const F eta = lookup<F>(materials.eta, vertex.material, materials.count);
             const auto from_outside = words_equal(vertex.side, U(0u));
             const auto at = interface_at<V>(vertex.cosine, choose(from_outside, eta, one / eta));
@@ -99,7 +92,7 @@ ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<typename V::Real>& co
             out.side = choose(reflects, out.side, out.side ^ U(inside_bit));
         }
         out.lobe = unit(out.lobe);
-        if constexpr (is_rough(kind)) {
+        if constexpr (traits_of(kind).is_rough()) {
             const F beta = lookup<F>(materials.roughness, vertex.material, materials.count);
             const auto sample = sample_glossy<V>(out.lobe, normal, lobe_cosine, beta, random.x, random.y);
             out.direction = sample.direction;
@@ -120,28 +113,29 @@ void scatter(const ScatterContext<typename V::Real>& context, Range run, const R
     using F = typename V::F;
     using U = typename V::U;
     const Vec3<F> none{F(0), F(0), F(0)};
-    if constexpr (dimensions_of(kind) > 0)
-        draw<V, dimensions_of(kind)>(context.slots, rays, run, {context.seed, Dimension::scattering, 0},
-                                     context.bounce);
+    constexpr int dimensions = traits_of(kind).dimensions;
+    const RandomKey key{context.seed, Dimension::scattering, 0};
+    if constexpr (dimensions > 0) draw<V, dimensions>(context.slots, rays, run, key, context.bounce);
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
         // Ahead of the vertex, which needs none of them: the processor works on both at once.
         RandomNumbers<F> random{};
-        if constexpr (dimensions_of(kind) > 0) {
-            const U slot = choose(first_lanes<V>(run.count - n), load<U>(rays.slot + i), U(0u));
-            random = random_for<V, dimensions_of(kind)>(context.slots, rays, i,
-                                                        {context.seed, Dimension::scattering, 0}, context.bounce, slot);
-        }
+        if constexpr (dimensions > 0) random = random_for<V, dimensions>(context.slots, rays, i, key, context.bounce);
         const auto in = arriving<V>(context.spheres, rays, hits, i, run.count - n);
         save3<V>(rays.ox + i, rays.oy + i, rays.oz + i, in.vertex.position);
         const auto out = scatter_at<V, kind>(context, in.vertex, in.direction, random);
         save3<V>(rays.dx + i, rays.dy + i, rays.dz + i, out.direction);
         save(rays.left + i, in.vertex.sphere | out.side);
         if (rays.pdf != nullptr) save(rays.pdf + i, out.pdf);
-        if constexpr (is_interface(kind)) {
+        // In a ray tree a mirror has one branch. (What a diffuse vertex has is its light samples, under its own
+        // number.)
+        if constexpr (kind == Scattering::specular) {
+            if (rays.vertex != nullptr) save(rays.vertex + i, load<U>(rays.vertex + i) << 1);
+        }
+        if constexpr (traits_of(kind).is_interface) {
             if (rays.eta_scale != nullptr) save(rays.eta_scale + i, load<F>(rays.eta_scale + i) * out.eta_scale);
         }
-        if constexpr (is_rough(kind)) {
+        if constexpr (traits_of(kind).is_rough()) {
             if (lobes.x != nullptr) save3<V>(lobes.x + i, lobes.y + i, lobes.z + i, out.lobe);
         }
         // Misses leave with no throughput.

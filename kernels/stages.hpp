@@ -3,7 +3,7 @@
 // Every pointer does what the template of the same name documents (generate.hpp, intersect.hpp, ...).
 #pragma once
 
-#include "kernels/connect_chosen.hpp"
+#include "kernels/connect.hpp"
 #include "kernels/isa.hpp"
 #include "kernels/scatter.hpp"
 #include "kernels/segment.hpp"
@@ -25,8 +25,8 @@ struct Stages {
                                const HitQueue<Real>&);
     Intersect intersect, intersect_coherent, intersect_tree;
 
-    void (*emission)(const SphereTable<Real>&, const EmissionTable<Real>&, LightStrategy, const RayQueue<Real>&,
-                     const HitQueue<Real>&, std::uint32_t count, const SlotTable<Real>&);
+    void (*emission)(const SphereTable<Real>&, const LightTable<Real>&, const Background<Real>&, LightStrategy,
+                     const RayQueue<Real>&, const HitQueue<Real>&, std::uint32_t count, const SlotTable<Real>&);
     bool (*sort_by_scattering)(const SphereTable<Real>&, std::uint32_t kinds, const RayQueue<Real>&,
                                const HitQueue<Real>&, std::uint32_t count, const RayQueue<Real>& sorted_rays,
                                const HitQueue<Real>& sorted_hits, Runs&);
@@ -34,15 +34,9 @@ struct Stages {
                              const LobeQueue<Real>&);
     Scatter scatter[scattering_count];  ///< by Scattering
 
-    using ConnectPoint = std::uint32_t (*)(const ConnectContext<Real>&, const PointLight<Real>&, Range,
-                                           const RayQueue<Real>&, const LobeQueue<Real>&, const ShadowQueue<Real>&);
-    using ConnectArea = std::uint32_t (*)(const ConnectContext<Real>&, const AreaLight<Real>&, Range,
-                                          const RayQueue<Real>&, const LobeQueue<Real>&, const ShadowQueue<Real>&);
-    using ConnectChosen = std::uint32_t (*)(const ConnectContext<Real>&, const LightTable<Real>&, Range,
-                                            const RayQueue<Real>&, const LobeQueue<Real>&, const ShadowQueue<Real>&);
-    ConnectPoint connect_point[2];       ///< by Response
-    ConnectArea connect_area[2][2];      ///< by LightStrategy, Response
-    ConnectChosen connect_chosen[2][2];  ///< the same
+    using Connect = std::uint32_t (*)(const ConnectContext<Real>&, std::uint32_t light, Range, const RayQueue<Real>&,
+                                      const LobeQueue<Real>&, const ShadowQueue<Real>&);
+    Connect connect[2];  ///< by Response
 
     using Shadow = void (*)(const SphereTable<Real>&, const ShadowQueue<Real>&, std::uint32_t count,
                             std::uint32_t target, const SlotTable<Real>&);
@@ -51,10 +45,9 @@ struct Stages {
     std::uint32_t (*roulette)(const SlotTable<Real>&, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs&,
                               const RayQueue<Real>&);
 
-    void (*expire)(const SlotTable<Real>&, std::uint32_t depth, std::uint32_t count, const RayQueue<Real>&);
+    void (*expire)(std::uint32_t depth, std::uint32_t count, const RayQueue<Real>&);
     void (*branch)(const ScatterContext<Real>&, Range, const RayQueue<Real>&, const HitQueue<Real>&,
                    const BranchStack<Real>&);
-    void (*descend)(const SlotTable<Real>&, Range, const RayQueue<Real>&);
     std::uint32_t (*resume)(const SlotTable<Real>&, const BranchStack<Real>&, std::uint32_t count,
                             const RayQueue<Real>&, WordOf<Real>* live);
 

@@ -4,15 +4,48 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 
 #include "kernels/lanes.hpp"
 #include "kernels/tree.hpp"
 
 namespace orrery::kernels {
 
-/// How a surface scatters. The order is the order in which the wave sorts its hits.
+/// How a surface scatters: a row each in scattering_traits, in whose order the wave sorts its hits.
 enum class Scattering : std::uint32_t { diffuse, specular, glossy, dielectric, translucent };
-inline constexpr std::uint32_t scattering_count = 5;
+
+/// By which density a vertex scatters, where lights are sampled from it; none: into single directions.
+enum class Response : std::uint32_t { diffuse, glossy, none };
+
+/// All that the program has to know of a way of scattering, but for the scattering itself (scatter.hpp).
+struct ScatteringTraits {
+    const char* name;
+    int dimensions;  ///< random numbers that an event takes
+    Response response;
+    bool is_interface;       ///< light may pass through the surface
+    Scattering unperturbed;  ///< what is left of it without roughness, as Whitted ray tracing has it
+    constexpr bool is_rough() const { return response == Response::glossy; }
+};
+inline constexpr ScatteringTraits scattering_traits[] = {
+    {"diffuse", 2, Response::diffuse, false, Scattering::diffuse},
+    {"specular", 0, Response::none, false, Scattering::specular},
+    {"glossy", 2, Response::glossy, false, Scattering::specular},
+    {"dielectric", 3, Response::none, true, Scattering::dielectric},
+    {"translucent", 3, Response::glossy, true, Scattering::dielectric},
+};
+inline constexpr std::uint32_t scattering_count = std::size(scattering_traits);
+
+constexpr const ScatteringTraits& traits_of(Scattering kind) {
+    return scattering_traits[static_cast<std::size_t>(kind)];
+}
+constexpr std::uint32_t bit_of(Scattering kind) { return 1u << static_cast<unsigned>(kind); }
+/// Bits of the ways of scattering whose traits hold for `holds`.
+template <class Holds>
+constexpr std::uint32_t scattering_where(const Holds& holds) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t k = 0; k < scattering_count; ++k) bits |= holds(scattering_traits[k]) ? 1u << k : 0u;
+    return bits;
+}
 
 /// A sphere's `surface` word: the material's index, its Scattering above that, and whether it emits on top.
 inline constexpr std::uint32_t surface_material_bits = 24;
@@ -36,7 +69,7 @@ struct SphereTable {
     const Real* radius2 = nullptr;  ///< radius * radius in Real, so a sphere whose radius is half an ulp off
     const Real* inverse_radius = nullptr;
     const Word* surface = nullptr;  ///< see surface_material_bits
-    const Word* light = nullptr;    ///< index into the area lights where surface_emits is set, else 0
+    const Word* light = nullptr;    ///< index into the lights where surface_emits is set, else 0
     SphereTree<Real> tree{};
 };
 
@@ -53,52 +86,36 @@ struct MaterialTable {
     const Real* roughness = nullptr;  ///< beta, [0, 1)
 };
 
-template <class Real>
-struct PointLight {
-    Real px, py, pz;
-    Real r, g, b;  ///< radiant intensity, W/sr
-};
-
-/// A sphere that emits the radiance (r, g, b) on both sides.
-template <class Real>
-struct AreaLight {
-    std::uint32_t sphere = 0;
-    Real cx, cy, cz, radius;
-    Real r, g, b;
-};
-
-/// The lights of which a vertex samples one, and how it is chosen: by Walker's alias method. Cells are equally likely,
-/// and each belongs to its own light as far as `share`, to the light `other` beyond.
+/// All lights, points first: a point, or a sphere that emits on both sides.
 template <class Real>
 struct LightTable {
     using Word = WordOf<Real>;
-    std::uint32_t cells = 0;  ///< a power of two <= 2^24, so that the top bits of a random number are a cell; 0: unused
-    const Real* share = nullptr;  ///< a multiple of 2^-24 in [0, 1]: no random number is rounded to the other side
-    const Word* other = nullptr;
-
-    std::uint32_t count = 0;   ///< of lights, <= cells
-    const Real* px = nullptr;  ///< a point light's position, an area light's centre
+    std::uint32_t points = 0;  ///< how many of them are points
+    std::uint32_t count = 0;
+    const Real* px = nullptr;  ///< a point's position, a sphere's centre
     const Real* py = nullptr;
     const Real* pz = nullptr;
-    const Real* radius = nullptr;  ///< 0 for a point light
-    const Real* r = nullptr;       ///< radiant intensity or radiance
+    const Real* radius = nullptr;  ///< 0 for a point
+    const Real* r = nullptr;       ///< a point's radiant intensity in W/sr, a sphere's radiance
     const Real* g = nullptr;
     const Real* b = nullptr;
-    const Real* inverse_probability = nullptr;  ///< of choosing it, >= 1
-    const Word* sphere = nullptr;               ///< no_sphere for a point light
+    const Word* sphere = nullptr;  ///< no_sphere for a point
+
+    // How a vertex chooses one of them, by Walker's alias method. Cells are equally likely, and each belongs to its own
+    // light as far as `share`, to the light `other` beyond.
+    std::uint32_t cells = 0;      ///< a power of two <= 2^24, so that the top bits of a random number are a cell; 0: a
+                                  ///< vertex samples all lights, and the other columns are null
+    const Real* share = nullptr;  ///< a multiple of 2^-24 in [0, 1]: no random number is rounded to the other side
+    const Word* other = nullptr;
+    const Real* probability = nullptr;  ///< of choosing the light
+    const Real* inverse_probability = nullptr;
 };
 
-/// What an area light emits, by light index, for rays that run into one.
+/// The radiance of the enclosing volume.
 template <class Real>
-struct EmissionTable {
-    std::uint32_t count = 0;
-    const Real* r = nullptr;
-    const Real* g = nullptr;
-    const Real* b = nullptr;
-    const Real* probability = nullptr;  ///< that a vertex samples this light; null where every vertex samples all
-    Real background_r = 0, background_g = 0, background_b = 0;
-    bool has_background = false;
-    bool has_emitters = false;
+struct Background {
+    Real r = 0, g = 0, b = 0;
+    ORRERY_INLINE bool shines() const { return r != 0 || g != 0 || b != 0; }
 };
 
 /// How a direction towards an area light is drawn.

@@ -65,21 +65,19 @@ ORRERY_INLINE Arriving<V> arriving(const SphereTable<typename V::Real>& spheres,
                          choose(live, met, U(0u)))};
 }
 
-/// The vertex number randomness is keyed with: the bounce of a path, or the node of the slot's Whitted ray.
-template <class V>
-ORRERY_INLINE typename V::U vertex_number(const SlotTable<typename V::Real>& slots, std::uint32_t bounce,
-                                          const typename V::U& slot) {
-    using U = typename V::U;
-    return slots.node != nullptr ? gather<U>(slots.node, slot) : U(bounce);
-}
-
 /// What a stage's rays are known by to randomness: those of a queue, or of a wave that has no rays yet.
 template <class Real>
 struct RayKeys {
     const WordOf<Real>* pixel;
     const WordOf<Real>* sample;
-    const WordOf<Real>* slot;  ///< null where all rays have the vertex number `bounce`
+    const WordOf<Real>* vertex;  ///< null where all rays have the number of the bounce
 };
+
+template <class V>
+ORRERY_INLINE typename V::U vertex_number(const typename V::Word* vertex, std::uint32_t i, std::uint32_t bounce) {
+    using U = typename V::U;
+    return vertex != nullptr ? load<U>(vertex + i) : U(bounce);
+}
 
 /// Draws the first `dimensions` numbers of a block for the rays of a run, before the stage's own loop, where samples
 /// are points of Sobol's sequences. In that loop the drawing would cost every stage registers, points or not: 2 % of
@@ -91,11 +89,8 @@ template <class V, int dimensions>
     const auto& to = slots.points;
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
-        U vertex(bounce);
-        if (rays.slot != nullptr && slots.node != nullptr)
-            vertex =
-                vertex_number<V>(slots, bounce, choose(first_lanes<V>(run.count - n), load<U>(rays.slot + i), U(0u)));
-        const auto point = sobol_block<V>(key, load<U>(rays.pixel + i), load<U>(rays.sample + i), vertex);
+        const auto point = sobol_block<V>(key, load<U>(rays.pixel + i), load<U>(rays.sample + i),
+                                          vertex_number<V>(rays.vertex, i, bounce));
         save(to.x + i, point.x);
         if constexpr (dimensions > 1) save(to.y + i, point.y);
         if constexpr (dimensions > 2) save(to.z + i, point.z);
@@ -107,7 +102,7 @@ template <class V, int dimensions>
 ORRERY_INLINE void draw(const SlotTable<typename V::Real>& slots, const RayQueue<typename V::Real>& rays, Range run,
                         const RandomKey& key, std::uint32_t bounce) {
     if (slots.points.x != nullptr)
-        draw_points<V, dimensions>(slots, {rays.pixel, rays.sample, rays.slot}, run, key, bounce);
+        draw_points<V, dimensions>(slots, {rays.pixel, rays.sample, rays.vertex}, run, key, bounce);
 }
 
 /// The numbers drawn for rays i.. of a queue.
@@ -123,13 +118,12 @@ ORRERY_INLINE RandomNumbers<typename V::F> drawn(const PointQueue<typename V::Re
 template <class V, int dimensions>
 ORRERY_INLINE RandomNumbers<typename V::F> random_for(const SlotTable<typename V::Real>& slots,
                                                       const RayQueue<typename V::Real>& rays, std::uint32_t i,
-                                                      const RandomKey& key, std::uint32_t bounce,
-                                                      const typename V::U& slot) {
+                                                      const RandomKey& key, std::uint32_t bounce) {
     using U = typename V::U;
     if (slots.points.x != nullptr) [[unlikely]]
         return drawn<V, dimensions>(slots.points, i);
     return random_block<V>(key, load<U>(rays.pixel + i), load<U>(rays.sample + i),
-                           vertex_number<V>(slots, bounce, slot));
+                           vertex_number<V>(rays.vertex, i, bounce));
 }
 
 }  // namespace orrery::kernels

@@ -15,13 +15,11 @@ inline constexpr Real branch_cut = Real(1e-5);
 
 /// Kills the rays that have scattered `depth` times. Runs after `emission`.
 template <class V>
-void expire(const SlotTable<typename V::Real>& slots, std::uint32_t depth, std::uint32_t count,
-            const RayQueue<typename V::Real>& rays) {
+void expire(std::uint32_t depth, std::uint32_t count, const RayQueue<typename V::Real>& rays) {
     using F = typename V::F;
     using U = typename V::U;
     for (std::uint32_t i = 0; i < count; i += V::count) {
-        const U slot = choose(first_lanes<V>(count - i), load<U>(rays.slot + i), U(0u));
-        const auto alive = words_equal(gather<U>(slots.node, slot) >> static_cast<int>(depth), U(0u));
+        const auto alive = words_equal(load<U>(rays.vertex + i) >> static_cast<int>(depth), U(0u));
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
         const Vec3<F> none{F(0), F(0), F(0)};
         save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(alive, throughput, none));
@@ -64,12 +62,13 @@ void branch(const ScatterContext<typename V::Real>& context, Range run, const Ra
         const Vec3<F> mirror = unit(reflected(in.direction, vertex.normal, vertex.cosine));
         const Vec3<F> through = refracted<V>(in.direction, vertex.normal, vertex.cosine, at);
         const U mirror_left = vertex.sphere | vertex.side;
-        const U node = gather<U>(context.slots.node, in.slot) << 1;
+        const U node = load<U>(rays.vertex + i) << 1;
 
         save3<V>(rays.ox + i, rays.oy + i, rays.oz + i, vertex.position);
         save3<V>(rays.dx + i, rays.dy + i, rays.dz + i, choose(continues, through, mirror));
         save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(continues, transmitted, mirrored));
         save(rays.left + i, choose(continues, mirror_left ^ U(inside_bit), mirror_left));
+        save(rays.vertex + i, choose(continues, node | U(1u), node));
 
         alignas(64) Word slot_of[V::count], node_of[V::count], left_of[V::count];
         alignas(64) Real numbers[9][V::count];
@@ -79,10 +78,6 @@ void branch(const ScatterContext<typename V::Real>& context, Range run, const Ra
         save3<V>(numbers[0], numbers[1], numbers[2], vertex.position);
         save3<V>(numbers[3], numbers[4], numbers[5], mirror);
         save3<V>(numbers[6], numbers[7], numbers[8], mirrored);
-        for (std::uint32_t left = bits(in.live); left != 0; left &= left - 1) {
-            const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
-            context.slots.node[slot_of[lane]] = node_of[lane] + (bits(continues) >> lane & 1u);
-        }
         for (std::uint32_t left = bits(postponed); left != 0; left &= left - 1) {
             const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
             const Word s = slot_of[lane];
@@ -92,15 +87,9 @@ void branch(const ScatterContext<typename V::Real>& context, Range run, const Ra
             for (int f = 0; f < 9; ++f) to[f][entry] = numbers[f][lane];
             stack.rays.left[entry] = left_of[lane];
             stack.rays.slot[entry] = s;
-            stack.node[entry] = node_of[lane];
+            stack.rays.vertex[entry] = node_of[lane];
         }
     }
-}
-
-/// The rays of a run step down their trees without branching.
-template <class V>
-void descend(const SlotTable<typename V::Real>& slots, Range run, const RayQueue<typename V::Real>& rays) {
-    for (std::uint32_t i = run.begin; i < run.begin + run.count; ++i) slots.node[rays.slot[i]] <<= 1;
 }
 
 /// Appends to `rays` the topmost postponed branch of every slot without a live ray. `live` has an entry per slot, zero
@@ -117,7 +106,6 @@ std::uint32_t resume(const SlotTable<typename V::Real>& slots, const BranchStack
             });
             rays.pixel[count] = slots.pixel[s];
             rays.sample[count] = slots.sample[s];
-            slots.node[s] = stack.node[entry];
             ++count;
         }
         live[s] = 0;

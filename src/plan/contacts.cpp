@@ -97,7 +97,7 @@ public:
             const Primitive& p = scene.primitives[i];
             const Ball ball = ball_of(p);
             const double whole = area(p.radius), most = whole * (ball.transparent ? to_and_fro : 1);
-            if (p.emission && shines(*p.emission)) lamps.push_back({i, ball, whole * sum(*p.emission), whole});
+            if (emits(p)) lamps.push_back({i, ball, whole * sum(*p.emission), whole});
             if (most > harmless_share * image_ * ball.distance * ball.distance)
                 large.push_back({i, ball, p.radius / (ball.distance + p.radius)});
         }
@@ -120,13 +120,13 @@ private:
     Ball ball_of(const Primitive& p) const {
         const glm::dvec3 c = glm::abs(p.centre);
         const double from_eye = glm::length(p.centre - eye_);
-        const MaterialKind kind = scene_.materials[p.material].kind;
+        const auto kind = scattering_of(scene_.materials[p.material], scene_.settings.integrator);
         return {p.centre,
                 p.radius,
                 unit_ * std::max({p.radius, c.x, c.y, c.z}),
                 std::abs(from_eye - p.radius),
                 from_eye < p.radius,
-                kind == MaterialKind::dielectric || kind == MaterialKind::translucent};
+                kernels::traits_of(kind).is_interface};
     }
 
     /// What sphere k leaves of a lamp's light on the camera's side of it.

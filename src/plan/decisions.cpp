@@ -10,13 +10,12 @@ using kernels::Scattering;
 
 namespace {
 
-constexpr std::array<const char*, kernels::scattering_count> kind_names = {"diffuse", "specular", "glossy",
-                                                                           "dielectric", "translucent"};
+const char* name_of(std::uint32_t kind) { return kernels::scattering_traits[kind].name; }
 
 std::string kinds(std::uint32_t mask) {
     std::string list;
     for (std::uint32_t k = 0; k < kernels::scattering_count; ++k)
-        if ((mask >> k & 1u) != 0) list += fmt::format("{}{}", list.empty() ? "" : ", ", kind_names[k]);
+        if ((mask >> k & 1u) != 0) list += fmt::format("{}{}", list.empty() ? "" : ", ", name_of(k));
     return list;
 }
 
@@ -49,7 +48,7 @@ std::vector<Decision> Plan::decisions() const {
     }
     for (std::uint32_t k = 0; k < kernels::scattering_count; ++k) {
         const bool runs = n.scatters(static_cast<Scattering>(k));
-        decide(fmt::format("shade: {}", kind_names[k]).c_str(), runs,
+        decide(fmt::format("shade: {}", name_of(k)).c_str(), runs,
                runs ? "some surface scatters so" : "no surface scatters so");
     }
     decide("shade: sort", n.sort, n.sort ? "surfaces scatter in several ways" : "all surfaces scatter alike");

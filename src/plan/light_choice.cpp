@@ -27,8 +27,7 @@ std::vector<double> light_weights(const Scene& scene, LightChoice rule, bool are
     for (const PointLight& light : scene.point_lights)
         if (shines(light.intensity)) weights.push_back(power(light.intensity, 1));
     for (const Primitive& p : scene.primitives)
-        if (area && p.emission && shines(*p.emission))
-            weights.push_back(power(*p.emission, std::numbers::pi * p.radius * p.radius));
+        if (area && emits(p)) weights.push_back(power(*p.emission, std::numbers::pi * p.radius * p.radius));
     double sum = 0;
     for (const double weight : weights) sum += weight;
     const double round = 1 / static_cast<double>(weights.size());
@@ -40,44 +39,31 @@ std::vector<double> light_weights(const Scene& scene, LightChoice rule, bool are
 }
 
 template <class Real>
-ChosenLights<Real>::ChosenLights(const std::vector<double>& weights,
-                                 const std::vector<kernels::PointLight<Real>>& points,
-                                 const std::vector<kernels::AreaLight<Real>>& areas) {
+ChoiceColumns<Real>::ChoiceColumns(const std::vector<double>& weights) {
     const AliasTable choice = alias_table(weights);
+    cells_ = static_cast<std::uint32_t>(choice.cells.size());
     for (const AliasTable::Cell& cell : choice.cells) {
         share_.push_back(static_cast<Real>(cell.share) / static_cast<Real>(1u << AliasTable::bits));
         other_.push_back(cell.other);
     }
-    const auto put = [&](std::initializer_list<Real> numbers, std::uint32_t sphere) {
-        const double probability = choice.probability[sphere_.size()];
-        auto column = columns_.begin();
-        for (const Real number : numbers) (column++)->push_back(number);
-        column->push_back(static_cast<Real>(1 / probability));
-        sphere_.push_back(sphere);
-        if (sphere != kernels::no_sphere) area_probability.push_back(static_cast<Real>(probability));
-    };
-    for (const auto& l : points) put({l.px, l.py, l.pz, 0, l.r, l.g, l.b}, kernels::no_sphere);
-    for (const auto& l : areas)
-        if (sphere_.size() < weights.size()) put({l.cx, l.cy, l.cz, l.radius, l.r, l.g, l.b}, l.sphere);
-    const auto pad = [](auto& column) { column.resize(column.size() + kernels::widest); };
-    pad(share_), pad(other_), pad(sphere_), pad(area_probability);
-    for (auto& column : columns_) pad(column);
-    table = {static_cast<std::uint32_t>(choice.cells.size()),
-             share_.data(),
-             other_.data(),
-             static_cast<std::uint32_t>(weights.size()),
-             columns_[0].data(),
-             columns_[1].data(),
-             columns_[2].data(),
-             columns_[3].data(),
-             columns_[4].data(),
-             columns_[5].data(),
-             columns_[6].data(),
-             columns_[7].data(),
-             sphere_.data()};
+    for (const double probability : choice.probability) {
+        probability_.push_back(static_cast<Real>(probability));
+        inverse_probability_.push_back(static_cast<Real>(1 / probability));
+    }
+    const auto pad = [](auto&... column) { (column.resize(column.size() + kernels::widest), ...); };
+    pad(share_, other_, probability_, inverse_probability_);
 }
 
-template class ChosenLights<float>;
-template class ChosenLights<double>;
+template <class Real>
+void ChoiceColumns<Real>::put_into(kernels::LightTable<Real>& table) const {
+    table.cells = cells_;
+    table.share = share_.data();
+    table.other = other_.data();
+    table.probability = probability_.data();
+    table.inverse_probability = inverse_probability_.data();
+}
+
+template class ChoiceColumns<float>;
+template class ChoiceColumns<double>;
 
 }  // namespace orrery

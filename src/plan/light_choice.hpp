@@ -1,7 +1,6 @@
 // Which light a vertex samples where it samples one of several: the probabilities, and the columns the kernels read.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "kernels/tables.hpp"
@@ -18,29 +17,25 @@ namespace orrery {
 /// lamps stand close, the squared error falls by 0.26 at a tenth, by 0.4 at three.)
 std::vector<double> light_weights(const Scene& scene, LightChoice rule, bool area);
 
-/// Owns what its table points to, moves included.
+/// The columns of a LightTable that say so; moves leave them where they are.
 template <class Real>
-class ChosenLights {
+class ChoiceColumns {
 public:
-    /// None: the table has no cells.
-    ChosenLights() = default;
-    /// One weight for every point light and, behind them, every area light. Throws std::invalid_argument for more than
-    /// 2^24 lights.
-    ChosenLights(const std::vector<double>& weights, const std::vector<kernels::PointLight<Real>>& points,
-                 const std::vector<kernels::AreaLight<Real>>& areas);
-    ChosenLights(ChosenLights&&) = default;
-    ChosenLights& operator=(ChosenLights&&) = default;
+    /// None.
+    ChoiceColumns() = default;
+    /// Throws std::invalid_argument for more than 2^24 lights.
+    explicit ChoiceColumns(const std::vector<double>& weights);
 
-    kernels::LightTable<Real> table;
-    std::vector<Real> area_probability;  ///< of choosing each area light, padded to whole vectors
+    void put_into(kernels::LightTable<Real>& table) const;
 
 private:
     std::vector<Real> share_;
-    std::vector<kernels::WordOf<Real>> other_, sphere_;
-    std::array<std::vector<Real>, 8> columns_;  // position radius colour 1/probability
+    std::vector<kernels::WordOf<Real>> other_;
+    std::vector<Real> probability_, inverse_probability_;
+    std::uint32_t cells_ = 0;
 };
 
-extern template class ChosenLights<float>;
-extern template class ChosenLights<double>;
+extern template class ChoiceColumns<float>;
+extern template class ChoiceColumns<double>;
 
 }  // namespace orrery

@@ -11,13 +11,8 @@
 
 namespace orrery {
 
-using kernels::Scattering;
-
-namespace {
-
-constexpr std::uint32_t bit(Scattering kind) { return 1u << static_cast<unsigned>(kind); }
-
-}  // namespace
+using kernels::Response;
+using kernels::ScatteringTraits;
 
 Plan::Plan(Scene scene, unsigned threads) : scene_(std::move(scene)) {
     RenderSettings& s = scene_.settings;
@@ -92,15 +87,15 @@ void Plan::plan_tables(unsigned threads) {
 void Plan::plan_needs() {
     const RenderSettings& s = settings();
     for (const Primitive& p : scene_.primitives) {
-        needs_.scattering |= bit(scattering_of(scene_.materials[p.material], s.integrator));
-        if (p.emission && shines(*p.emission)) ++emitters_;
+        needs_.scattering |= kernels::bit_of(scattering_of(scene_.materials[p.material], s.integrator));
+        if (emits(p)) ++emitters_;
     }
     for (const PointLight& light : scene_.point_lights)
         if (shines(light.intensity)) ++point_lights_;
-    const std::uint32_t rough =
-        needs_.scattering & (bit(Scattering::diffuse) | bit(Scattering::glossy) | bit(Scattering::translucent));
-    const std::uint32_t diffuse = needs_.scattering & bit(Scattering::diffuse);
-    const std::uint32_t dielectric = needs_.scattering & (bit(Scattering::dielectric) | bit(Scattering::translucent));
+    const auto present = [&](auto holds) { return needs_.scattering & kernels::scattering_where(holds); };
+    const auto rough = present([](const ScatteringTraits& t) { return t.response != Response::none; });
+    const auto diffuse = present([](const ScatteringTraits& t) { return t.response == Response::diffuse; });
+    const auto dielectric = present([](const ScatteringTraits& t) { return t.is_interface; });
     needs_.integrator = s.integrator;
     needs_.lens = scene_.camera.aperture > 0;
     needs_.points = s.estimator == Estimator::sobol;

@@ -34,7 +34,7 @@ struct Needs {
     bool roulette = false;
     bool branches = false;  ///< Whitted with dielectrics: both branches, one postponed
 
-    bool scatters(kernels::Scattering kind) const { return (scattering >> static_cast<unsigned>(kind) & 1u) != 0; }
+    bool scatters(kernels::Scattering kind) const { return (scattering & kernels::bit_of(kind)) != 0; }
 };
 
 /// One line of `orrery info`: a part of the pipeline, whether it runs, and why.

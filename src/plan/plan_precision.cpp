@@ -67,7 +67,7 @@ void Plan::drop(const std::vector<Twins>& same_as_earlier) {
     auto twin = same_as_earlier.begin();
     for (std::uint32_t i = 0; i < all.size(); ++i) {
         if (twin != same_as_earlier.end() && twin->again == i) {
-            if (all[i].emission && shines(*all[i].emission)) ++lamps;
+            if (emits(all[i])) ++lamps;
             ++twin;
         } else {
             if (kept != i) all[kept] = std::move(all[i]);

@@ -33,24 +33,17 @@ kernels::TreeNode<double> widened(const kernels::TreeNode<float>& from) {
 }  // namespace
 
 kernels::Scattering scattering_of(const Material& material, Integrator integrator) {
-    using kernels::Scattering;
-    switch (material.kind) {
-        case MaterialKind::diffuse:
-            return Scattering::diffuse;
-        case MaterialKind::specular:
-            return Scattering::specular;
-        case MaterialKind::dielectric:
-            return Scattering::dielectric;
-        // Whitted follows the unperturbed direction (spec section 4).
-        case MaterialKind::glossy:
-            return integrator == Integrator::whitted ? Scattering::specular : Scattering::glossy;
-        case MaterialKind::translucent:
-            return integrator == Integrator::whitted ? Scattering::dielectric : Scattering::translucent;
-    }
-    throw std::invalid_argument("unknown material kind");
+    // One way of scattering for every kind of material, in the same order.
+    const auto kind = static_cast<std::size_t>(material.kind);
+    if (kind >= kernels::scattering_count) throw std::invalid_argument("unknown material kind");
+    // Whitted follows the unperturbed direction.
+    return integrator == Integrator::whitted ? kernels::scattering_traits[kind].unperturbed
+                                             : static_cast<kernels::Scattering>(kind);
 }
+static_assert(static_cast<std::size_t>(MaterialKind::translucent) + 1 == kernels::scattering_count);
 
 bool shines(const glm::dvec3& light) { return light.r != 0 || light.g != 0 || light.b != 0; }
+bool emits(const Primitive& primitive) { return primitive.emission && shines(*primitive.emission); }
 
 template <class Real>
 Tables<Real>::Tables(const Scene& scene, const CameraFrame& frame, const LengthUnit& in,
@@ -58,8 +51,7 @@ Tables<Real>::Tables(const Scene& scene, const CameraFrame& frame, const LengthU
     : unit(static_cast<Real>(in.length)) {
     put_camera(scene, frame, in);
     put_materials(scene);
-    put_spheres(scene, in, order);
-    put_lights(scene, in);
+    put_spheres(scene, in, order, put_lights(scene, in));
     if constexpr (std::is_same_v<Real, float>) {
         nodes_ = std::move(tree.nodes);
     } else {
@@ -105,20 +97,9 @@ void Tables<Real>::put_materials(const Scene& scene) {
 }
 
 template <class Real>
-void Tables<Real>::put_spheres(const Scene& scene, const LengthUnit& in, const std::vector<std::uint32_t>& order) {
-    const auto f = [](double v) { return static_cast<Real>(v); };
+void Tables<Real>::put_spheres(const Scene& scene, const LengthUnit& in, const std::vector<std::uint32_t>& order,
+                               const std::vector<std::uint32_t>& light_of) {
     const auto l = [&](double v) { return static_cast<Real>(in.in_units(v)); };
-    // Lights count in the scene's order: which one a random number draws does not hang on the tree.
-    std::vector<std::uint32_t> light_of(scene.primitives.size());
-    const auto emits = [](const Primitive& p) { return p.emission && shines(*p.emission); };
-    for (std::size_t i = 0; i < light_of.size(); ++i) {
-        const Primitive& p = scene.primitives[i];
-        if (!emits(p)) continue;
-        light_of[i] = static_cast<std::uint32_t>(area_lights.size());
-        push3(emission_columns_, 0, *p.emission);
-        area_lights.push_back({0, l(p.centre.x), l(p.centre.y), l(p.centre.z), l(p.radius), f(p.emission->r),
-                               f(p.emission->g), f(p.emission->b)});
-    }
     // Exactly what they hold: grown by doubling, the columns of 2^20 spheres would end at twice their size.
     for (auto& column : sphere_columns_) column.reserve(order.size() + kernels::widest);
     for (auto& column : sphere_words_) column.reserve(order.size() + kernels::widest);
@@ -134,7 +115,7 @@ void Tables<Real>::put_spheres(const Scene& scene, const LengthUnit& in, const s
         std::uint32_t surface = p.material | static_cast<std::uint32_t>(kind) << kernels::surface_material_bits;
         if (emits(p)) {
             surface |= kernels::surface_emits;
-            area_lights[light_of[primitive]].sphere = index;
+            light_words_[0][light_of[primitive]] = index;
         }
         sphere_words_[0].push_back(surface);
         sphere_words_[1].push_back(light_of[primitive]);
@@ -153,35 +134,55 @@ void Tables<Real>::put_spheres(const Scene& scene, const LengthUnit& in, const s
     spheres.light = sphere_words_[1].data();
 }
 
+/// Lights count in the scene's order: which one a random number draws does not hang on the tree. Returns by primitive
+/// which light it is.
 template <class Real>
-void Tables<Real>::put_lights(const Scene& scene, const LengthUnit& in) {
-    const auto f = [](double v) { return static_cast<Real>(v); };
-    const auto l = [&](double v) { return static_cast<Real>(in.in_units(v)); };
-    const auto i = [&](double v) { return static_cast<Real>(in.intensity(v)); };
+std::vector<std::uint32_t> Tables<Real>::put_lights(const Scene& scene, const LengthUnit& in) {
+    const auto put = [&](const glm::dvec3& place, double radius, const glm::dvec3& colour) {
+        const double row[] = {in.in_units(place.x),
+                              in.in_units(place.y),
+                              in.in_units(place.z),
+                              in.in_units(radius),
+                              colour.r,
+                              colour.g,
+                              colour.b};
+        for (std::size_t c = 0; c < std::size(row); ++c) light_columns_[c].push_back(static_cast<Real>(row[c]));
+        light_words_[0].push_back(kernels::no_sphere);
+    };
+    const auto count = [&] { return static_cast<std::uint32_t>(light_words_[0].size()); };
     for (const PointLight& light : scene.point_lights) {
-        if (!shines(light.intensity)) continue;
-        point_lights.push_back({l(light.position.x), l(light.position.y), l(light.position.z), i(light.intensity.r),
-                                i(light.intensity.g), i(light.intensity.b)});
+        const glm::dvec3& i = light.intensity;
+        if (shines(i)) put(light.position, 0, {in.intensity(i.r), in.intensity(i.g), in.intensity(i.b)});
+    }
+    kernels::LightTable<Real>&points = lights_[0], &all = lights_[1];
+    points.points = points.count = count();
+    std::vector<std::uint32_t> light_of(scene.primitives.size());
+    for (std::size_t i = 0; i < light_of.size(); ++i) {
+        const Primitive& p = scene.primitives[i];
+        if (!emits(p)) continue;
+        light_of[i] = count();
+        put(p.centre, p.radius, *p.emission);
+    }
+    all.points = points.count;
+    all.count = count();
+    pad(light_columns_);
+    pad(light_words_);
+    for (auto& table : lights_) {
+        const auto column = [&](std::size_t c) { return light_columns_[c].data(); };
+        table.px = column(0), table.py = column(1), table.pz = column(2), table.radius = column(3);
+        table.r = column(4), table.g = column(5), table.b = column(6);
+        table.sphere = light_words_[0].data();
     }
     const glm::dvec3& b = scene.background;
-    pad(emission_columns_);
-    emission = {static_cast<std::uint32_t>(area_lights.size()),
-                emission_columns_[0].data(),
-                emission_columns_[1].data(),
-                emission_columns_[2].data(),
-                nullptr,
-                f(b.r),
-                f(b.g),
-                f(b.b),
-                shines(b),
-                !area_lights.empty()};
+    background = {static_cast<Real>(b.r), static_cast<Real>(b.g), static_cast<Real>(b.b)};
+    return light_of;
 }
 
 template <class Real>
 void Tables<Real>::choose_lights(const Scene& scene, bool area) {
-    ChosenLights<Real>& chosen = chosen_lights_[area ? 1 : 0];
-    chosen = ChosenLights<Real>(light_weights(scene, scene.settings.light_choice, area), point_lights, area_lights);
-    if (area) emission.probability = chosen.area_probability.data();
+    const std::size_t which = area ? 1 : 0;
+    choices_[which] = ChoiceColumns<Real>(light_weights(scene, scene.settings.light_choice, area));
+    choices_[which].put_into(lights_[which]);
 }
 
 template class Tables<float>;

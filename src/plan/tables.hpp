@@ -30,19 +30,16 @@ public:
     Tables(const Tables&) = delete;
     Tables& operator=(const Tables&) = delete;
 
-    /// Makes chosen_lights(area) what a vertex chooses one light from, by the scene's light choice. With area lights,
-    /// rays that run into one learn how probable its choice is.
+    /// Lets vertices choose one of lights(area), by the scene's light choice. With area lights, rays that run into one
+    /// learn how probable its choice is.
     void choose_lights(const Scene& scene, bool area);
-    /// The lights for vertices that sample area lights as well as point lights, or point lights alone. No cells unless
-    /// choose_lights was called for them.
-    const kernels::LightTable<Real>& chosen_lights(bool area) const { return chosen_lights_[area ? 1 : 0].table; }
+    /// All lights, for vertices that sample area lights as well as point lights; or point lights alone.
+    const kernels::LightTable<Real>& lights(bool area) const { return lights_[area ? 1 : 0]; }
 
     kernels::CameraTable<Real> camera{};
     kernels::SphereTable<Real> spheres;
     kernels::MaterialTable<Real> materials;
-    kernels::EmissionTable<Real> emission;
-    std::vector<kernels::PointLight<Real>> point_lights;
-    std::vector<kernels::AreaLight<Real>> area_lights;
+    kernels::Background<Real> background;
     /// For DEPTH, whose distances are the scene's: how long a unit is, and the enclosing volume's distance, larger than
     /// any hit's.
     Real unit = 1;
@@ -53,15 +50,19 @@ private:
 
     void put_camera(const Scene& scene, const CameraFrame& frame, const LengthUnit& unit);
     void put_materials(const Scene& scene);
-    void put_spheres(const Scene& scene, const LengthUnit& unit, const std::vector<std::uint32_t>& order);
-    void put_lights(const Scene& scene, const LengthUnit& unit);
+    /// Both go by the scene's order of primitives; put_spheres tells the lights where their spheres stand.
+    std::vector<std::uint32_t> put_lights(const Scene& scene, const LengthUnit& unit);
+    void put_spheres(const Scene& scene, const LengthUnit& unit, const std::vector<std::uint32_t>& order,
+                     const std::vector<std::uint32_t>& light_of);
 
     std::vector<kernels::TreeNode<Real>> nodes_;
     std::array<std::vector<Real>, 6> sphere_columns_;    // cx cy cz radius, its square and inverse
     std::array<std::vector<Word>, 2> sphere_words_;      // surface light
     std::array<std::vector<Real>, 8> material_columns_;  // rho, tau, eta, roughness
-    std::array<std::vector<Real>, 3> emission_columns_;
-    std::array<ChosenLights<Real>, 2> chosen_lights_;  // without area lights, with them
+    std::array<std::vector<Real>, 7> light_columns_;     // position radius colour
+    std::array<std::vector<Word>, 1> light_words_;       // sphere
+    std::array<ChoiceColumns<Real>, 2> choices_;         // without area lights, with them
+    std::array<kernels::LightTable<Real>, 2> lights_;    // the same
 };
 
 extern template class Tables<float>;
@@ -71,5 +72,6 @@ extern template class Tables<double>;
 kernels::Scattering scattering_of(const Material& material, Integrator integrator);
 /// A light that is switched off is none.
 bool shines(const glm::dvec3& light);
+bool emits(const Primitive& primitive);
 
 }  // namespace orrery

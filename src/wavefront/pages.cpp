@@ -9,7 +9,6 @@ namespace orrery {
 namespace {
 
 using kernels::LightStrategy;
-using kernels::Response;
 using kernels::Runs;
 using kernels::Scattering;
 
@@ -73,8 +72,8 @@ void gather_emission(Wave<Real>& w, std::uint32_t rays, std::uint32_t bounce) {
     if (!needs.emitters && !needs.background) return;
     // The hits' ids; what few rays run into light load more.
     const StageTimer timer(w.counters, Stage::shade, bounce, {rays, word<Real>, w.stages.step, true});
-    w.stages.emission(w.tables.spheres, w.tables.emission, light_strategy(w), w.storage.rays, w.storage.hits, rays,
-                      w.storage.slots);
+    w.stages.emission(w.tables.spheres, w.tables.lights(true), w.tables.background, light_strategy(w), w.storage.rays,
+                      w.storage.hits, rays, w.storage.slots);
 }
 
 /// Hits -> one run per way of scattering. Where the scene has one way, the queue is the run, misses included.
@@ -133,18 +132,18 @@ template <class Real>
 void connect(Wave<Real>& w, const Runs& runs, std::uint32_t bounce) {
     const Plan& plan = w.plan;
     const WaveStorage<Real>& s = w.storage;
-    kernels::ConnectContext<Real> context{
-        w.tables.spheres, w.tables.materials, s.slots, plan.settings().seed, bounce, 0, plan.needs().competing};
     const std::uint32_t bytes = 2 * vector3<Real> + 4 * word<Real> + record_bytes(s.shadows);
     for (std::uint32_t k = 0; k < kernels::scattering_count; ++k) {
         const auto run = runs.run[k];
         const bool points = (plan.needs().connect_point >> k & 1u) != 0;
         const bool areas = (plan.needs().connect_area >> k & 1u) != 0;
         if (run.count == 0 || !(points || areas)) continue;
-        const auto response = static_cast<Scattering>(k) == Scattering::diffuse ? Response::diffuse : Response::glossy;
-        const auto r = static_cast<std::size_t>(response);
-        const auto strategy = static_cast<std::size_t>(light_strategy(w));
-        const auto aim = [&](auto stage, const auto& light, std::uint32_t target) {
+        const kernels::LightTable<Real>& lights = w.tables.lights(areas);
+        const kernels::ConnectContext<Real> context{w.tables.spheres,  w.tables.materials,    lights,
+                                                    s.slots,           plan.settings().seed,  bounce,
+                                                    light_strategy(w), plan.needs().competing};
+        const auto stage = w.stages.connect[static_cast<std::size_t>(kernels::scattering_traits[k].response)];
+        const auto aim = [&](std::uint32_t light, std::uint32_t target) {
             std::uint32_t rays = 0;
             w.proceed(run.count);
             {
@@ -153,18 +152,10 @@ void connect(Wave<Real>& w, const Runs& runs, std::uint32_t bounce) {
             }
             shadow(w, rays, target, bounce);
         };
-        if (plan.needs().one_light) {
-            aim(w.stages.connect_chosen[strategy][r], w.tables.chosen_lights(areas), kernels::no_sphere);
-            continue;
-        }
-        if (points)
-            for (const auto& light : w.tables.point_lights) aim(w.stages.connect_point[r], light, kernels::no_sphere);
-        if (areas) {
-            context.light = 0;
-            for (const auto& light : w.tables.area_lights) {
-                aim(w.stages.connect_area[strategy][r], light, light.sphere);
-                ++context.light;
-            }
+        if (lights.cells != 0) {
+            aim(kernels::chosen_light, kernels::no_sphere);
+        } else {
+            for (std::uint32_t l = 0; l < lights.count; ++l) aim(l, static_cast<std::uint32_t>(lights.sphere[l]));
         }
     }
 }
@@ -222,18 +213,16 @@ void trace_whitted(Wave<Real>& w) {
     const auto k = [](Scattering kind) { return static_cast<std::size_t>(kind); };
 
     std::uint32_t rays = generate(w);
-    for (std::uint32_t slot = 0; slot < w.count; ++slot) s.slots.node[slot] = 1;
     for (std::uint32_t pass = 0; rays > 0; ++pass) {
         w.proceed(rays);
         intersect(w, rays, pass);
         gather_emission(w, rays, pass);
-        w.stages.expire(s.slots, w.plan.settings().depth, rays, s.rays);
+        w.stages.expire(w.plan.settings().depth, rays, s.rays);
         Runs runs = sort_hits(w, rays, pass);
         scatter(w, Scattering::diffuse, runs, pass);
         connect(w, runs, pass);
         end_diffuse(runs);
         scatter(w, Scattering::specular, runs, pass);
-        w.stages.descend(s.slots, runs.run[k(Scattering::specular)], s.rays);
         const auto dielectric = runs.run[k(Scattering::dielectric)];
         if (dielectric.count > 0) {
             const StageTimer timer(w.counters, Stage::shade, pass,

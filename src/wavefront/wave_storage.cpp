@@ -46,6 +46,8 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
             if constexpr (std::is_same_v<decltype(member), Real * Queue::*>) {
                 if (member == &Queue::pdf && !needs.scattering_pdf) return;
                 if (member == &Queue::eta_scale && !needs.eta_scale) return;
+            } else if (member == &Queue::vertex && needs.integrator != Integrator::whitted) {
+                return;
             }
             carver.field(queue.*member, count);
         });
@@ -53,16 +55,15 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
 
     carver.field(slots.pixel, padded);
     carver.field(slots.sample, padded);
-    if (needs.integrator == Integrator::whitted) carver.field(slots.node, padded);
     carver.field(slots.plane_x, padded);
     carver.field(slots.plane_y, padded);
     carver.field(slots.radiance, std::size_t{4} * padded);
     if (needs.points) {
-        using enum kernels::Scattering;
         const bool four = needs.lens || needs.one_light;
+        const auto drawing_three = kernels::scattering_where([](const auto& traits) { return traits.dimensions > 2; });
         carver.field(slots.points.x, capacity);
         carver.field(slots.points.y, capacity);
-        if (four || needs.scatters(dielectric) || needs.scatters(translucent)) carver.field(slots.points.z, capacity);
+        if (four || (needs.scattering & drawing_three) != 0) carver.field(slots.points.z, capacity);
         if (four) carver.field(slots.points.w, capacity);
     }
     ray_fields(rays, capacity);
@@ -88,7 +89,6 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
         carver.field(branches.height, padded);
         ray_fields(branches.rays, std::size_t{slot_count} * depth);
         branches.rays.pixel = branches.rays.sample = nullptr;  // the slot knows them
-        carver.field(branches.node, std::size_t{slot_count} * depth);
         carver.field(live, padded);
     }
     return carver.used;

@@ -1,5 +1,5 @@
 // Stage `shade`, last step, where a vertex samples one of several lights: which one it is, and that it is sampled as
-// connect_point and connect_area sample it, over the probability of the choice.
+// if there were no other, over the probability of the choice.
 #include <map>
 
 #include "kernel_test.hpp"
@@ -37,33 +37,18 @@ struct Choice {
             if (c < light_count) probability[c] += cell.share / cell_count;
             probability[cell.other] += (1 - cell.share) / cell_count;
         }
-        put({2, -3, 4}, 0, {10, 20, 30}, no_sphere, probability[0]);
-        put({-1, 2, -5}, 0, {3, 2, 1}, no_sphere, probability[1]);
-        for (const std::uint32_t sphere : {3u, 5u, 6u}) {
-            const glm::dvec3 colour =
-                get3(world.emission.r, world.emission.g, world.emission.b, world.spheres.light[sphere]);
-            put(world.centre(sphere), world.radius(sphere), colour, sphere, probability[target.size()]);
-        }
-        for (auto& column : numbers) column.resize(column.size() + kernels::widest, NAN);
-        share.resize(share.size() + kernels::widest, NAN);
+        for (const double p : probability) chances.push_back(narrow(p)), inverse_chances.push_back(narrow(1 / p));
+        for (auto* column : {&share, &chances, &inverse_chances}) column->resize(column->size() + kernels::widest, NAN);
         other.resize(other.size() + kernels::widest, canary);
-        target.resize(target.size() + kernels::widest, canary);
-        table = {cell_count,        share.data(),      other.data(),      light_count,       numbers[0].data(),
-                 numbers[1].data(), numbers[2].data(), numbers[3].data(), numbers[4].data(), numbers[5].data(),
-                 numbers[6].data(), numbers[7].data(), target.data()};
+        table = world.lights;
+        table.cells = cell_count, table.share = share.data(), table.other = other.data();
+        table.probability = chances.data(), table.inverse_probability = inverse_chances.data();
     }
     Choice(const Choice&) = delete;
     Choice& operator=(const Choice&) = delete;
 
-    void put(const glm::dvec3& p, double radius, const glm::dvec3& colour, std::uint32_t sphere, double probability) {
-        const double row[] = {p.x, p.y, p.z, radius, colour.x, colour.y, colour.z, 1 / probability};
-        for (std::size_t c = 0; c < 8; ++c) numbers[c].push_back(narrow(row[c]));
-        target.push_back(sphere);
-    }
-
-    std::array<std::vector<float>, 8> numbers;
-    std::vector<float> share;
-    std::vector<std::uint32_t> other, target;
+    std::vector<float> share, chances, inverse_chances;
+    std::vector<std::uint32_t> other;
     kernels::LightTable<float> table;
 };
 
@@ -78,14 +63,16 @@ protected:
                        {glm::dvec3(-3, -2, -1), 0.5, 1, 1},
                        {glm::dvec3(0, 0, 0), 30, 0, 2}},
                       {{.beta = 0.3}, {.beta = 0.5}, {.beta = 0.9}},
-                      {{5, 6, 7}, {50, 20, 10}, {0.1, 0.2, 0.3}}};
+                      {{5, 6, 7}, {50, 20, 10}, {0.1, 0.2, 0.3}},
+                      {{{2, -3, 4}, {10, 20, 30}}, {{-1, 2, -5}, {3, 2, 1}}}};
 
     LitVertices wave_of(std::uint32_t count) const {
         const glm::dvec3 lights[] = {{2, -3, 4}, {-1, 2, -5}, world.centre(3), world.centre(5)};
         return lit_vertices(world, lights, count, 6);
     }
-    kernels::ConnectContext<float> context(const Slots& slots, bool competing) const {
-        return {world.spheres, world.materials, *slots, seed, bounce, 0, competing};
+    kernels::ConnectContext<float> context(const Slots& slots, const kernels::LightTable<float>& lights,
+                                           LightStrategy strategy, bool competing) const {
+        return {world.spheres, world.materials, lights, *slots, seed, bounce, strategy, competing};
     }
 
     static std::uint32_t chosen_by(const Choice& choice, const LitVertices& w, std::uint32_t i) {
@@ -95,22 +82,15 @@ protected:
         return u[3] < static_cast<double>(choice.share[cell]) ? cell : choice.other[cell];
     }
 
-    /// What the single-light stage makes of every vertex for one light of the table, by slot, without competition.
+    /// What every vertex gets of one light of the table alone, by slot, without competition. A light draws the numbers
+    /// of its own place among those with an area, a chosen one the first: so it is made the first.
     std::map<std::uint32_t, std::uint32_t> alone(const Choice& choice, std::uint32_t light, std::size_t response,
-                                                 std::size_t strategy, const LitVertices& w, const Slots& slots,
+                                                 LightStrategy strategy, const LitVertices& w, const Slots& slots,
                                                  const Shadows& queue) const {
-        const auto& t = choice.table;
-        std::uint32_t size = 0;
-        if (t.sphere[light] == no_sphere) {
-            size = stages.connect_point[response](
-                context(slots, false), {t.px[light], t.py[light], t.pz[light], t.r[light], t.g[light], t.b[light]},
-                {begin, w.count}, *w.rays, *w.lobes, *queue);
-        } else {
-            size = stages.connect_area[strategy][response](context(slots, false),
-                                                           {t.sphere[light], t.px[light], t.py[light], t.pz[light],
-                                                            t.radius[light], t.r[light], t.g[light], t.b[light]},
-                                                           {begin, w.count}, *w.rays, *w.lobes, *queue);
-        }
+        kernels::LightTable<float> lights = choice.table;
+        if (light >= lights.points) lights.points = light;
+        const std::uint32_t size = stages.connect[response](context(slots, lights, strategy, false), light,
+                                                            {begin, w.count}, *w.rays, *w.lobes, *queue);
         std::map<std::uint32_t, std::uint32_t> entry;
         for (std::uint32_t at = 0; at < size; ++at) entry[queue->slot[at]] = at;
         return entry;
@@ -118,15 +98,15 @@ protected:
 
     void expect_agrees(const Choice& choice, Response response, LightStrategy strategy, bool competing,
                        std::uint32_t count, bool with_targets = true) const {
-        const auto r = static_cast<std::size_t>(response), s = static_cast<std::size_t>(strategy);
-        const Slots slots(16, {"node"});
+        const auto r = static_cast<std::size_t>(response);
+        const Slots slots(16);
         const LitVertices w = wave_of(count), same = w;
         const std::uint32_t capacity = kernels::round_up(count) + kernels::widest;
         const Shadows before = with_targets ? Shadows(capacity, Shadows::WithTargets{}) : Shadows(capacity);
         Shadows queue = before;
         const auto connect = [&](const kernels::Stages<float>& table, const Shadows& to) {
-            return table.connect_chosen[s][r](context(slots, competing), choice.table, {begin, count}, *w.rays,
-                                              *w.lobes, *to);
+            return table.connect[r](context(slots, choice.table, strategy, competing), kernels::chosen_light,
+                                    {begin, count}, *w.rays, *w.lobes, *to);
         };
         const std::uint32_t size = connect(stages, queue);
         EXPECT_TRUE(queue.untouched_but(before, 0, static_cast<std::ptrdiff_t>(size) + kernels::widest - 1));
@@ -141,7 +121,7 @@ protected:
         std::vector<std::map<std::uint32_t, std::uint32_t>> entry;
         for (std::uint32_t light = 0; light < Choice::light_count; ++light) {
             single.emplace_back(capacity);
-            entry.push_back(alone(choice, light, r, s, w, slots, single.back()));
+            entry.push_back(alone(choice, light, r, strategy, w, slots, single.back()));
         }
         std::uint32_t at = 0;
         std::array<std::uint32_t, Choice::light_count> rays{};
@@ -205,20 +185,15 @@ TEST_P(ConnectChosenTest, AmongPointLightsAlone) {
 // agree.
 TEST_P(ConnectChosenTest, LeavesTheRestToScattering) {
     const Choice choice(world, false);
-    std::vector<float> probability(3 + kernels::widest, NAN);
-    for (std::size_t light = 0; light < 3; ++light)
-        probability[light] = 1 / choice.table.inverse_probability[light + 2];
-    kernels::EmissionTable<float> emission = world.emission;
-    emission.probability = probability.data();
     constexpr std::uint32_t count = 3001;
     const LitVertices w = wave_of(count);
     for (const auto strategy : {LightStrategy::area, LightStrategy::cone}) {
         const std::uint32_t capacity = kernels::round_up(count) + kernels::widest;
-        const Slots slots(capacity, {"node"});
+        const Slots slots(capacity);
         const Shadows whole(capacity, Shadows::WithTargets{}), shared(capacity, Shadows::WithTargets{});
         const auto connect = [&](bool competing, const Shadows& to) {
-            return stages.connect_chosen[static_cast<std::size_t>(strategy)][0](context(slots, competing), choice.table,
-                                                                                {begin, count}, *w.rays, *w.lobes, *to);
+            return stages.connect[0](context(slots, choice.table, strategy, competing), kernels::chosen_light,
+                                     {begin, count}, *w.rays, *w.lobes, *to);
         };
         const std::uint32_t size = connect(false, whole);
         ASSERT_EQ(connect(true, shared), size);
@@ -241,7 +216,7 @@ TEST_P(ConnectChosenTest, LeavesTheRestToScattering) {
             }
             for (std::uint32_t c = 0; c < 4; ++c) slots->radiance[4 * i + c] = 0;
         }
-        stages.emission(world.spheres, emission, strategy, *found, *hits, size, *slots);
+        stages.emission(world.spheres, choice.table, world.background, strategy, *found, *hits, size, *slots);
         std::uint32_t tested = 0;
         for (std::uint32_t i = 0; i < size; ++i) {
             const double share = static_cast<double>(shared->r[i]) / static_cast<double>(whole->r[i]);
@@ -250,7 +225,7 @@ TEST_P(ConnectChosenTest, LeavesTheRestToScattering) {
                 continue;
             }
             const std::uint32_t light = world.spheres.light[whole->target[i]];
-            const double emitted = static_cast<double>(world.emission.r[light]);
+            const double emitted = static_cast<double>(world.lights.r[light]);
             const Roots at = roots(origin_of(*found, i), direction_of(*found, i), world.centre(whole->target[i]),
                                    world.radius(whole->target[i]));
             const double half_chord = (at.far - at.near) / 2 / world.radius(whole->target[i]);

@@ -23,17 +23,16 @@ protected:
                        {glm::dvec3(4, 4, -3), 1.5, 0, 0},
                        {glm::dvec3(4.2, 4, -3), 0.25, 1}},
                       {{.beta = 0.3}, {.beta = 0.05}, {.beta = 0.9}},
-                      {{5, 6, 7}}};
-    const kernels::AreaLight<float> area_light{light_sphere,        world.spheres.cx[3],     world.spheres.cy[3],
-                                               world.spheres.cz[3], world.spheres.radius[3], world.emission.r[0],
-                                               world.emission.g[0], world.emission.b[0]};
-
+                      {{5, 6, 7}},
+                      {{{2, -3, 4}, {10, 20, 30}}}};
+    static constexpr std::uint32_t point_light = 0, area_light = 1;
     LitVertices wave_of(std::uint32_t count) const {
         const glm::dvec3 lights[] = {world.centre(light_sphere)};
         return lit_vertices(world, lights, count);
     }
-    kernels::ConnectContext<float> context(const Slots& slots, bool competing = false) const {
-        return {world.spheres, world.materials, *slots, 21, 4, 2, competing};
+    kernels::ConnectContext<float> context(const Slots& slots, LightStrategy strategy = LightStrategy::area,
+                                           bool competing = false) const {
+        return {world.spheres, world.materials, world.lights, *slots, 21, 4, strategy, competing};
     }
 
     /// A vertex the way the textbook sees it.
@@ -94,13 +93,12 @@ protected:
     }
 
     void expect_point_light_agrees(Response response, std::uint32_t count) const {
-        const Slots slots(16, {"node"});
-        const kernels::PointLight<float> light{2, -3, 4, 10, 20, 30};
+        const Slots slots(16);
         const LitVertices w = wave_of(count);
         std::uint32_t size = 0;
         const Shadows queue = connected(w, size, [&](const auto& table, const LitVertices& in, const Shadows& to) {
-            return table.connect_point[static_cast<std::size_t>(response)](context(slots), light, {begin, in.count},
-                                                                           *in.rays, *in.lobes, *to);
+            return table.connect[static_cast<std::size_t>(response)](context(slots), point_light, {begin, in.count},
+                                                                     *in.rays, *in.lobes, *to);
         });
         std::uint32_t at = 0;
         for (std::uint32_t i = begin; i < begin + count; ++i) {
@@ -130,12 +128,12 @@ protected:
 
     void expect_area_light_agrees(Response response, LightStrategy strategy, bool competing,
                                   std::uint32_t count) const {
-        const Slots slots(16, {"node"});
+        const Slots slots(16);
         const LitVertices w = wave_of(count);
         std::uint32_t size = 0;
         const Shadows queue = connected(w, size, [&](const auto& table, const LitVertices& in, const Shadows& to) {
-            return table.connect_area[static_cast<std::size_t>(strategy)][static_cast<std::size_t>(response)](
-                context(slots, competing), area_light, {begin, in.count}, *in.rays, *in.lobes, *to);
+            return table.connect[static_cast<std::size_t>(response)](context(slots, strategy, competing), area_light,
+                                                                     {begin, in.count}, *in.rays, *in.lobes, *to);
         });
         const glm::dvec3 centre = world.centre(light_sphere), emitted(5, 6, 7);
         const double radius = world.radius(light_sphere);
@@ -204,35 +202,34 @@ TEST_P(ConnectTest, AreaLightOnGlossy) {
 }
 
 TEST_P(ConnectTest, DeadVerticesConnectToNothing) {
-    const Slots slots(16, {"node"});
+    const Slots slots(16);
     const LitVertices w = wave_of(125);
     for (std::uint32_t i = begin; i < begin + 125; ++i) put3(w.rays->tr, w.rays->tg, w.rays->tb, i, glm::dvec3(0));
     Shadows queue(160);
     const Shadows before = queue;
-    const kernels::PointLight<float> light{2, -3, 4, 10, 20, 30};
     for (const std::size_t r : {0u, 1u}) {
-        EXPECT_EQ(stages.connect_point[r](context(slots), light, {begin, 125}, *w.rays, *w.lobes, *queue), 0u);
-        for (const std::size_t s : {0u, 1u})
-            EXPECT_EQ(stages.connect_area[s][r](context(slots), area_light, {begin, 125}, *w.rays, *w.lobes, *queue),
-                      0u);
+        const auto rays = [&](LightStrategy strategy, std::uint32_t light) {
+            return stages.connect[r](context(slots, strategy), light, {begin, 125}, *w.rays, *w.lobes, *queue);
+        };
+        EXPECT_EQ(rays(LightStrategy::area, point_light), 0u);
+        for (const auto strategy : {LightStrategy::area, LightStrategy::cone})
+            EXPECT_EQ(rays(strategy, area_light), 0u);
     }
     EXPECT_TRUE(queue.untouched_but(before, 0, kernels::widest - 1));
 }
 
 // A throughput that is no number goes to the light like any other, and with it through the film's count.
 TEST_P(ConnectTest, NoNumberIsLostWhicheverChannelItIsIn) {
-    const Slots slots(16, {"node"});
-    const kernels::PointLight<float> light{2, -3, 4, 10, 20, 30};
+    const Slots slots(16);
     for (const bool competing : {false, true})
         for (int channel = 0; channel < 3; ++channel) {
             const LitVertices w = wave_of(125);
             glm::dvec3 throughput(0);
             throughput[channel] = std::numeric_limits<double>::quiet_NaN();
-            const auto shadow_rays = [&](auto stage, const auto& lamp) {
-                auto how = context(slots);
-                how.competing = competing;
+            const auto shadow_rays = [&](std::size_t response, LightStrategy strategy, std::uint32_t light) {
                 Shadows queue(160);
-                const std::uint32_t size = stage(how, lamp, {begin, 125}, *w.rays, *w.lobes, *queue);
+                const std::uint32_t size = stages.connect[response](context(slots, strategy, competing), light,
+                                                                    {begin, 125}, *w.rays, *w.lobes, *queue);
                 std::uint32_t none = 0;
                 for (std::uint32_t i = 0; i < size; ++i) {
                     const glm::dvec3 radiance = get3(queue->r, queue->g, queue->b, i);
@@ -244,27 +241,29 @@ TEST_P(ConnectTest, NoNumberIsLostWhicheverChannelItIsIn) {
                 const auto set = [&](const glm::dvec3& to) {
                     for (std::uint32_t i = begin; i < begin + 125; ++i) put3(w.rays->tr, w.rays->tg, w.rays->tb, i, to);
                 };
-                const auto compare = [&](auto stage, const auto& lamp) {
+                const auto compare = [&](LightStrategy strategy, std::uint32_t light) {
                     set(glm::dvec3(1));
-                    const auto all = shadow_rays(stage, lamp).first;
+                    const auto all = shadow_rays(r, strategy, light).first;
                     ASSERT_GT(all, 0u);
                     set(throughput);
-                    EXPECT_EQ(shadow_rays(stage, lamp), std::pair(all, all)) << "channel " << channel;
+                    EXPECT_EQ(shadow_rays(r, strategy, light), std::pair(all, all)) << "channel " << channel;
                 };
-                compare(stages.connect_point[r], light);
-                for (const std::size_t s : {0u, 1u}) compare(stages.connect_area[s][r], area_light);
+                compare(LightStrategy::area, point_light);
+                for (const auto strategy : {LightStrategy::area, LightStrategy::cone}) compare(strategy, area_light);
             }
         }
 }
 
 // A light at the vertex itself has no direction and no distance: nothing may come of it, least of all a NaN.
 TEST_P(ConnectTest, PointLightOnTheSurfaceItselfIsLeftOut) {
-    const Slots slots(16, {"node"});
+    const Slots slots(16);
     LitVertices w{Rays(48), Lobes(48), 1};
     put_ray(*w.rays, begin, {1, 0, 0}, {1, 0, 0}, 0);
-    const kernels::PointLight<float> light{1, 0, 0, 1, 1, 1};
+    const World touched({{}}, {Surface{}}, {}, {{{1, 0, 0}, glm::dvec3(1)}});
+    auto with_light = context(slots);
+    with_light.lights = touched.lights;
     Shadows queue(32);
-    EXPECT_EQ(stages.connect_point[0](context(slots), light, {begin, 1}, *w.rays, *w.lobes, *queue), 0u);
+    EXPECT_EQ(stages.connect[0](with_light, 0, {begin, 1}, *w.rays, *w.lobes, *queue), 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Isas, ConnectTest, ::testing::ValuesIn(supported_isas()), name_of_isa);

@@ -21,11 +21,9 @@ std::vector<const void*> stages_in(const kernels::Stages<Real>& s) {
     add(s.generate_pinhole), add(s.generate_lens), add(s.intersect), add(s.intersect_coherent), add(s.intersect_tree),
         add(s.emission), add(s.sort_by_scattering);
     for (const auto scatter : s.scatter) add(scatter);
-    for (const auto connect : s.connect_point) add(connect);
-    for (const auto& strategy : s.connect_area)
-        for (const auto connect : strategy) add(connect);
+    for (const auto connect : s.connect) add(connect);
     add(s.shadow), add(s.shadow_coherent), add(s.shadow_tree), add(s.roulette), add(s.expire), add(s.branch),
-        add(s.descend), add(s.resume);
+        add(s.resume);
     add(s.intersects), add(s.is_occluded);
     return all;
 }

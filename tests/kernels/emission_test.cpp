@@ -57,7 +57,7 @@ protected:
     void expect_agrees(const World& in, const Wave& w, LightStrategy strategy) const {
         Slots out = w.slots;
         Rays rays = w.rays;
-        stages.emission(in.spheres, in.emission, strategy, *rays, *w.hits, w.count, *out);
+        stages.emission(in.spheres, in.lights, in.background, strategy, *rays, *w.hits, w.count, *out);
         EXPECT_TRUE(rays.same_as(w.rays, -Rays::guard, rays.capacity() + Rays::guard)) << "rays are only read";
         EXPECT_TRUE(out.untouched_but(w.slots, 0, w.count));
         std::vector<glm::dvec3> wanted(w.count);
@@ -68,19 +68,18 @@ protected:
             const glm::dvec3 throughput = throughput_of(*rays, i);
             glm::dvec3& sum = wanted[rays->slot[i]];
             if (id == no_sphere) {
-                if (in.emission.has_background)
-                    sum += throughput *
-                           glm::dvec3(in.emission.background_r, in.emission.background_g, in.emission.background_b);
-            } else if (in.emission.has_emitters && (in.spheres.surface[id] & kernels::surface_emits) != 0) {
+                if (in.background.shines())
+                    sum += throughput * glm::dvec3(in.background.r, in.background.g, in.background.b);
+            } else if (in.lights.count > 0 && (in.spheres.surface[id] & kernels::surface_emits) != 0) {
                 double weight = 1;
                 if (rays->pdf != nullptr && rays->pdf[i] < infinity) {
                     double density = light_density(strategy, origin_of(*rays, i), direction_of(*rays, i), in.centre(id),
                                                    in.radius(id));
-                    if (in.emission.probability != nullptr) density *= in.emission.probability[in.spheres.light[id]];
+                    if (in.lights.probability != nullptr) density *= in.lights.probability[in.spheres.light[id]];
                     weight = rays->pdf[i] / (rays->pdf[i] + density);
                 }
                 const std::uint32_t light = in.spheres.light[id];
-                sum += weight * throughput * get3(in.emission.r, in.emission.g, in.emission.b, light);
+                sum += weight * throughput * get3(in.lights.r, in.lights.g, in.lights.b, light);
             }
         }
         for (std::uint32_t s = 0; s < w.count; ++s)
@@ -92,7 +91,7 @@ protected:
             ASSERT_EQ(out->radiance[4 * s + 3], w.slots->radiance[4 * s + 3]) << "the unused fourth number";
         if (!exact()) return;
         Slots same = w.slots;
-        scalar.emission(in.spheres, in.emission, strategy, *w.rays, *w.hits, w.count, *same);
+        scalar.emission(in.spheres, in.lights, in.background, strategy, *w.rays, *w.hits, w.count, *same);
         EXPECT_TRUE(out.same_as(same, 0, w.count));
     }
 };
@@ -114,7 +113,7 @@ TEST_P(EmissionTest, WhatIsChosenRarelyLeavesMoreToScattering) {
                  {Surface{}}, {{1, 2, 3}, {0.5, 0, 7}, {100, 200, 50}});
     std::vector<float> probability(3 + kernels::widest, std::numeric_limits<float>::quiet_NaN());
     probability[0] = 0.625f, probability[1] = 0.25f, probability[2] = 0.125f;
-    chosen.emission.probability = probability.data();
+    chosen.lights.probability = probability.data();
     for (const std::uint32_t count : awkward_counts)
         for (const auto strategy : {LightStrategy::area, LightStrategy::cone})
             expect_agrees(chosen, wave_of(chosen, count), strategy);
@@ -128,13 +127,12 @@ TEST_P(EmissionTest, WithoutCompetitionEmissionCountsWhole) {
 
 TEST_P(EmissionTest, MissesCarryTheBackground) {
     World with_background({{glm::dvec3(0, 0, 0), 1, 0, 0}, {glm::dvec3(4, 0, 0), 0.5}}, {Surface{}}, {{1, 2, 3}});
-    with_background.emission.background_r = 0.25f;
-    with_background.emission.background_g = 0.5f;
-    with_background.emission.background_b = 4;
-    with_background.emission.has_background = true;
+    with_background.background.r = 0.25f;
+    with_background.background.g = 0.5f;
+    with_background.background.b = 4;
     for (const std::uint32_t count : awkward_counts)
         expect_agrees(with_background, wave_of(with_background, count), LightStrategy::cone);
-    with_background.emission.has_emitters = false;
+    with_background.lights.count = 0;
     expect_agrees(with_background, wave_of(with_background, 125), LightStrategy::cone);
 }
 
@@ -152,7 +150,7 @@ TEST_P(EmissionTest, WhatNoDensityTellsWeighsNothing) {
         hits->id[0] = inside_bit;
         hits->t[0] = 0;
         slots->radiance[0] = slots->radiance[1] = slots->radiance[2] = 0;
-        stages.emission(lamp.spheres, lamp.emission, strategy, *rays, *hits, 1, *slots);
+        stages.emission(lamp.spheres, lamp.lights, lamp.background, strategy, *rays, *hits, 1, *slots);
         return slots->radiance[2];
     };
     for (const auto strategy : {LightStrategy::area, LightStrategy::cone}) {
@@ -168,8 +166,7 @@ TEST_P(EmissionTest, WhatNoDensityTellsWeighsNothing) {
 // What is no number reaches the film, whichever channel it is in.
 TEST_P(EmissionTest, NoNumberIsLostWhicheverChannelItIsIn) {
     World shining({{glm::dvec3(0), 1, 0, 0}}, {Surface{}}, {{1, 2, 3}});
-    shining.emission.background_r = shining.emission.background_g = shining.emission.background_b = 1;
-    shining.emission.has_background = true;
+    shining.background.r = shining.background.g = shining.background.b = 1;
     for (const bool missed : {false, true})
         for (std::uint32_t channel = 0; channel < 3; ++channel) {
             glm::dvec3 throughput(0);
@@ -181,7 +178,8 @@ TEST_P(EmissionTest, NoNumberIsLostWhicheverChannelItIsIn) {
             hits->id[0] = missed ? no_sphere : 0;
             hits->t[0] = missed ? narrow(infinity) : 2;
             for (std::uint32_t c = 0; c < 4; ++c) slots->radiance[c] = 0;
-            stages.emission(shining.spheres, shining.emission, LightStrategy::cone, *rays, *hits, 1, *slots);
+            stages.emission(shining.spheres, shining.lights, shining.background, LightStrategy::cone, *rays, *hits, 1,
+                            *slots);
             EXPECT_TRUE(std::isnan(slots->radiance[channel])) << "channel " << channel << (missed ? ", missed" : "");
         }
 }
@@ -190,7 +188,7 @@ TEST_P(EmissionTest, ADarkWorldAddsNothing) {
     const World dark({{glm::dvec3(0, 0, 0), 1}});
     const Wave w = wave_of(dark, 125);
     Slots out = w.slots;
-    stages.emission(dark.spheres, dark.emission, LightStrategy::cone, *w.rays, *w.hits, 125, *out);
+    stages.emission(dark.spheres, dark.lights, dark.background, LightStrategy::cone, *w.rays, *w.hits, 125, *out);
     EXPECT_TRUE(out.same_as(w.slots, -Slots::guard, out.capacity() + Slots::guard));
 }
 
@@ -198,7 +196,7 @@ TEST_P(EmissionTest, DeadRaysAddNothing) {
     Wave w = wave_of(world, 125);
     for (std::uint32_t i = 0; i < 125; ++i) put3(w.rays->tr, w.rays->tg, w.rays->tb, i, glm::dvec3(0));
     Slots out = w.slots;
-    stages.emission(world.spheres, world.emission, LightStrategy::cone, *w.rays, *w.hits, 125, *out);
+    stages.emission(world.spheres, world.lights, world.background, LightStrategy::cone, *w.rays, *w.hits, 125, *out);
     EXPECT_TRUE(out.same_as(w.slots, -Slots::guard, out.capacity() + Slots::guard));
 }
 

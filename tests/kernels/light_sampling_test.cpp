@@ -41,16 +41,12 @@ protected:
     static World world_of(const Setting& s) {
         return World({{glm::dvec3(0), 1, 0}, {s.centre(), s.radius, 0, 0}}, {Surface{}}, {{1, 1, 1}});
     }
-    static kernels::AreaLight<float> light_of(const World& world) {
-        return {1, world.spheres.cx[1], world.spheres.cy[1], world.spheres.cz[1], world.spheres.radius[1], 1, 1, 1};
-    }
-
     /// Samples the light `count` times from the vertex, or from the light's own inside; returns how many samples were
     /// of use.
     std::uint32_t sample_many(const Setting& s, LightStrategy strategy, std::uint32_t count,
                               const std::function<void(const Sample&)>& visit, bool own = false) const {
         const World world = world_of(s);
-        const Slots slots(16, {"node"});
+        const Slots slots(16);
         const Lobes no_lobes(0, {"lobe_x", "lobe_y", "lobe_z"});
         Rays rays(batch);
         Shadows queue(batch + kernels::widest);
@@ -60,9 +56,9 @@ protected:
                 put_ray(*rays, i, own ? world.centre(1) - world.radius(1) * s.n : s.p, s.n, own ? 1 | inside_bit : 0);
                 rays->pixel[i] = (first + i) / 64, rays->sample[i] = (first + i) % 64;
             }
-            const std::uint32_t size = stages.connect_area[static_cast<std::size_t>(strategy)][0](
-                {world.spheres, world.materials, *slots, 5, 2, 0, false}, light_of(world), {0, batch}, *rays, *no_lobes,
-                *queue);
+            const std::uint32_t size =
+                stages.connect[0]({world.spheres, world.materials, world.lights, *slots, 5, 2, strategy, false}, 0,
+                                  {0, batch}, *rays, *no_lobes, *queue);
             for (std::uint32_t i = 0; i < size; ++i) {
                 Sample sample;
                 sample.vertex = origin_of(*rays, 0);
@@ -192,16 +188,16 @@ TEST_P(LightSampling, BothTechniquesShareTheLight) {
     for (const Setting& s : {Setting{3, 1}, {1.05, 1}, {30, 1}, {0.5, 4}, {2, 2, {0, 0, 1}, {0, 0, 1}}}) {
         for (const auto strategy : {LightStrategy::area, LightStrategy::cone}) {
             const World world = world_of(s);
-            const Slots slots(batch, {"node"});
+            const Slots slots(batch);
             const Lobes no_lobes(0, {"lobe_x", "lobe_y", "lobe_z"});
             Rays rays(batch), found(batch);
             Hits hits(batch);
             Shadows whole(batch + 16), shared(batch + 16);
             for (std::uint32_t i = 0; i < batch; ++i) put_ray(*rays, i, s.p, s.n, 0);
             const auto connect = [&](bool competing, const Shadows& queue) {
-                return stages.connect_area[static_cast<std::size_t>(strategy)][0](
-                    {world.spheres, world.materials, *slots, 5, 2, 0, competing}, light_of(world), {0, batch}, *rays,
-                    *no_lobes, *queue);
+                return stages.connect[0](
+                    {world.spheres, world.materials, world.lights, *slots, 5, 2, strategy, competing}, 0, {0, batch},
+                    *rays, *no_lobes, *queue);
             };
             const std::uint32_t size = connect(false, whole);
             ASSERT_GT(size, batch / 64) << name_of(s) << ": what scattering leaves nobody samples";
@@ -214,7 +210,7 @@ TEST_P(LightSampling, BothTechniquesShareTheLight) {
                 hits->id[i] = 1 | (s.within() ? inside_bit : 0);
                 slots->radiance[4 * i] = slots->radiance[4 * i + 1] = slots->radiance[4 * i + 2] = 0;
             }
-            stages.emission(world.spheres, world.emission, strategy, *found, *hits, size, *slots);
+            stages.emission(world.spheres, world.lights, world.background, strategy, *found, *hits, size, *slots);
             for (std::uint32_t i = 0; i < size; ++i) {
                 const double light_share = static_cast<double>(shared->r[i]) / static_cast<double>(whole->r[i]);
                 const Roots r = roots(origin_of(*found, i), direction_of(*found, i), world.centre(1), world.radius(1));
@@ -227,8 +223,9 @@ TEST_P(LightSampling, BothTechniquesShareTheLight) {
 
 TEST_P(LightSampling, LightsAndBouncesDrawDifferentNumbers) {
     const Setting s{3, 1};
-    const World world = world_of(s);
-    const Slots slots(16, {"node"});
+    const World world({{glm::dvec3(0), 1, 0}, {s.centre(), s.radius, 0, 0}, {s.centre(), s.radius, 0, 1}}, {Surface{}},
+                      {{1, 1, 1}, {1, 1, 1}});
+    const Slots slots(16);
     const Lobes no_lobes(0, {"lobe_x", "lobe_y", "lobe_z"});
     Rays rays(16);
     put_ray(*rays, 0, s.p, s.n, 0);
@@ -237,10 +234,10 @@ TEST_P(LightSampling, LightsAndBouncesDrawDifferentNumbers) {
         for (const std::uint32_t bounce : {0u, 1u})
             for (const std::uint32_t light : {0u, 1u}) {
                 Shadows queue(16);
-                ASSERT_EQ(
-                    stages.connect_area[1][0]({world.spheres, world.materials, *slots, seed, bounce, light, false},
-                                              light_of(world), {0, 1}, *rays, *no_lobes, *queue),
-                    1u);
+                ASSERT_EQ(stages.connect[0]({world.spheres, world.materials, world.lights, *slots, seed, bounce,
+                                             LightStrategy::cone, false},
+                                            light, {0, 1}, *rays, *no_lobes, *queue),
+                          1u);
                 seen.push_back(queue->dx[0]);
             }
     std::sort(seen.begin(), seen.end());

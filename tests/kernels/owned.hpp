@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <initializer_list>
 #include <string_view>
 #include <vector>
 
@@ -25,7 +24,7 @@ public:
     static constexpr std::ptrdiff_t guard = 64;  ///< words before and behind each field
 
     /// `absent` names the fields to be null pointers.
-    explicit Owned(std::size_t capacity, std::initializer_list<std::string_view> absent = {})
+    explicit Owned(std::size_t capacity, const std::vector<std::string_view>& absent = {})
         : capacity_(static_cast<std::ptrdiff_t>(capacity)) {
         Queue::each_field([&](std::string_view name, auto) {
             bool present = true;
@@ -99,7 +98,19 @@ private:
     Queue queue_{};
 };
 
-using Rays = Owned<kernels::RayQueue<float>>;
+/// Without the column of vertices, as path tracing has them, unless it is asked for.
+struct Rays : Owned<kernels::RayQueue<float>> {
+    struct InTrees {};
+    explicit Rays(std::size_t capacity, std::vector<std::string_view> absent = {})
+        : Owned(capacity, and_vertex(std::move(absent))) {}
+    Rays(std::size_t capacity, InTrees, const std::vector<std::string_view>& absent = {}) : Owned(capacity, absent) {}
+
+private:
+    static std::vector<std::string_view> and_vertex(std::vector<std::string_view> absent) {
+        absent.push_back("vertex");
+        return absent;
+    }
+};
 using Hits = Owned<kernels::HitQueue<float>>;
 using Lobes = Owned<kernels::LobeQueue<float>>;
 using Slots = Owned<kernels::SlotTable<float>>;
@@ -113,7 +124,9 @@ struct Shadows : Owned<kernels::ShadowQueue<float>> {
 
 inline kernels::RayQueue<float> from(const Rays& rays, std::uint32_t first) {
     kernels::RayQueue<float> part = *rays;
-    kernels::RayQueue<float>::each_field([&](const char*, auto field) { part.*field += first; });
+    kernels::RayQueue<float>::each_field([&](const char*, auto field) {
+        if (part.*field != nullptr) part.*field += first;
+    });
     return part;
 }
 

@@ -23,7 +23,7 @@ protected:
         std::uint32_t end = 0;
     };
     static Queue queue_of(const std::vector<std::uint32_t>& lengths, std::uint64_t random_seed = 1,
-                          std::initializer_list<std::string_view> absent = {}) {
+                          const std::vector<std::string_view>& absent = {}) {
         std::uint32_t capacity = kernels::widest;
         for (const std::uint32_t length : lengths) capacity += kernels::padded_run(length);
         Queue q{Rays(capacity, absent), {}, 0};
@@ -46,7 +46,7 @@ protected:
     }
 
     void expect_agrees(const Queue& q, bool play) const {
-        Slots slots(kernels::round_up(q.end) + 16, {"node"});
+        Slots slots(kernels::round_up(q.end) + 16);
         const Slots slots_before = slots;
         Rays rays = q.rays;
         const std::uint32_t size = stages.roulette(*slots, seed, bounce, play, q.runs, *rays);
@@ -96,7 +96,7 @@ TEST_P(RouletteTest, WithoutPlayTheLivingAreUnchanged) {
     Queue q = queue_of({125});
     for (std::uint32_t i = 0; i < 125; ++i) q.rays->tr[i] = 0.01f;
     const Rays before = q.rays;
-    Slots slots(128, {"node"});
+    Slots slots(128);
     EXPECT_EQ(stages.roulette(*slots, seed, bounce, false, q.runs, *q.rays), 125u);
     EXPECT_TRUE(q.rays.same_as(before, 0, 125));
 }
@@ -106,7 +106,7 @@ TEST_P(RouletteTest, AllDeadAndAllCertain) {
     for (std::uint32_t i = 0; i < dead.end; ++i) put3(dead.rays->tr, dead.rays->tg, dead.rays->tb, i, glm::dvec3(0));
     Queue certain = queue_of({125, 0, 40}, 2, {"eta_scale"});
     for (std::uint32_t i = 0; i < certain.end; ++i) certain.rays->tg[i] = 1;
-    const Slots slots(208, {"node"});
+    const Slots slots(208);
     for (const bool play : {true, false}) {
         Rays rays = dead.rays, living = certain.rays;
         EXPECT_EQ(stages.roulette(*slots, seed, bounce, play, dead.runs, *rays), 0u);
@@ -116,10 +116,14 @@ TEST_P(RouletteTest, AllDeadAndAllCertain) {
 
 // Whitted's rays are keyed by the node of their tree instead of the bounce.
 TEST_P(RouletteTest, NodesTakeThePlaceOfTheBounce) {
-    Queue q = queue_of({200});
-    Slots slots(208);
+    const Queue paths = queue_of({200});
+    Queue q{Rays(static_cast<std::size_t>(paths.rays.capacity()), Rays::InTrees{}), paths.runs, paths.end};
+    const Slots slots(208);
     for (std::uint32_t i = 0; i < 200; ++i) {
-        slots->node[i] = 1000 + i;
+        kernels::RayQueue<float>::each_field([&](const char*, auto field) {
+            if ((*paths.rays).*field != nullptr) ((*q.rays).*field)[i] = ((*paths.rays).*field)[i];
+        });
+        q.rays->vertex[i] = 1000 + i;
         put3(q.rays->tr, q.rays->tg, q.rays->tb, i, glm::dvec3(0.5));
         q.rays->eta_scale[i] = 1;
     }
@@ -127,7 +131,7 @@ TEST_P(RouletteTest, NodesTakeThePlaceOfTheBounce) {
     const std::uint32_t size = stages.roulette(*slots, seed, bounce, true, q.runs, *q.rays);
     std::uint32_t at = 0;
     for (std::uint32_t i = 0; i < 200; ++i)
-        if (random_reference(seed, 2, before->pixel[i], before->sample[i], 1000 + before->slot[i])[0] < 0.5) {
+        if (random_reference(seed, 2, before->pixel[i], before->sample[i], 1000 + i)[0] < 0.5) {
             ASSERT_EQ(q.rays->ox[at], before->ox[i]);
             ++at;
         }
@@ -136,7 +140,7 @@ TEST_P(RouletteTest, NodesTakeThePlaceOfTheBounce) {
 
 // A throughput that is no number must reach the film, which counts and drops it: never be killed in silence.
 TEST_P(RouletteTest, NoNumberIsLostWhicheverChannelItIsIn) {
-    const Slots slots(16, {"node"});
+    const Slots slots(16);
     for (const bool play : {false, true}) {
         for (int channel = 0; channel < 3; ++channel) {
             for (const double others : {0.0, 0.01}) {
@@ -155,7 +159,7 @@ TEST_P(RouletteTest, ExpectationIsUnchanged) {
     constexpr std::uint32_t count = 1u << 17;
     Queue q = queue_of({count}, 1, {"eta_scale"});
     const Rays before = q.rays;
-    const Slots slots(16, {"node"});
+    const Slots slots(16);
     const std::uint32_t size = stages.roulette(*slots, seed, bounce, true, q.runs, *q.rays);
     // Each ray's contribution less what it carried before: mean zero.
     statistics::RunningMoments difference;

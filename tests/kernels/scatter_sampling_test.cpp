@@ -30,7 +30,7 @@ protected:
                       const std::function<void(const glm::dvec3&, bool reflected)>& visit) const {
         constexpr std::uint32_t batch = 4096;
         const World world({{glm::dvec3(0), 1}}, {surface});
-        const Slots slots(16, {"node"});
+        const Slots slots(16);
         const Rays arriving(batch, {"eta_scale"});
         const Hits hits(batch);
         const Lobes lobes(batch);

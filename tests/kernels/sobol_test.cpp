@@ -79,7 +79,7 @@ void expect_drawn(const Points& points, std::uint32_t i, const std::array<std::u
 TEST_P(SobolTest, CameraRaysTakeTheirSlotsPoints) {
     constexpr std::uint32_t count = 75, capacity = 96;
     Rays rays(capacity);
-    Slots slots(capacity, {"node"});
+    Slots slots(capacity);
     Points points(capacity);
     kernels::SlotTable<float> table = *slots;
     table.points = *points;
@@ -100,9 +100,8 @@ TEST_P(SobolTest, CameraRaysTakeTheirSlotsPoints) {
 TEST_P(SobolTest, RaysOfARunTakeThePointsOfTheirVertex) {
     constexpr std::uint32_t begin = 32, count = 75, capacity = 160, bounce = 3;
     for (const bool whitted : {false, true}) {
-        Rays rays(capacity, {"eta_scale"});
-        Slots slots(capacity, whitted ? std::initializer_list<std::string_view>{}
-                                      : std::initializer_list<std::string_view>{"node"});
+        Rays rays = whitted ? Rays(capacity, Rays::InTrees{}, {"eta_scale"}) : Rays(capacity, {"eta_scale"});
+        Slots slots(capacity);
         Points points(capacity);
         kernels::SlotTable<float> table = *slots;
         table.points = *points;
@@ -111,7 +110,7 @@ TEST_P(SobolTest, RaysOfARunTakeThePointsOfTheirVertex) {
             put3(rays->tr, rays->tg, rays->tb, i, glm::dvec3(0.5));
             rays->slot[i] = slot_of[i] = 2 * count - i;
             rays->pixel[i] = i / 6, rays->sample[i] = reversed_reference(i % 6);
-            if (whitted) slots->node[slot_of[i]] = i + 1;
+            if (whitted) rays->vertex[i] = i + 1;
         }
         kernels::Runs runs;
         runs.run[0] = {begin, count};

@@ -1,4 +1,4 @@
-// Whitted's own steps: expire, branch, descend, resume, and the order in which they walk a tree.
+// Whitted's own steps: expire, branch, resume, and the order in which they walk a tree.
 #include "geometry.hpp"
 #include "kernel_test.hpp"
 #include "numbers.hpp"
@@ -16,31 +16,25 @@ using kernels::Scattering;
 /// A stack of its own for every slot; numbers and words behind guards.
 struct Stack {
     Rays rays;
-    Owned<kernels::HitQueue<float>> words;  ///< t unused, id: node by entry
     Owned<kernels::HitQueue<float>> heights;
     kernels::BranchStack<float> view;
 
     Stack(std::uint32_t slots, std::uint32_t levels)
-        : rays(std::size_t{slots} * levels, {"pdf", "eta_scale", "pixel", "sample"}),
-          words(std::size_t{slots} * levels),
-          heights(slots) {
+        : rays(std::size_t{slots} * levels, Rays::InTrees{}, {"pdf", "eta_scale", "pixel", "sample"}), heights(slots) {
         view.slots = slots;
         view.levels = levels;
         view.height = heights->id;
         view.rays = *rays;
-        view.node = words->id;
         for (std::uint32_t s = 0; s < slots; ++s) view.height[s] = 0;
     }
-    Stack(const Stack& other) : rays(other.rays), words(other.words), heights(other.heights), view(other.view) {
+    Stack(const Stack& other) : rays(other.rays), heights(other.heights), view(other.view) {
         view.height = heights->id;
         view.rays = *rays;
-        view.node = words->id;
     }
     Stack& operator=(const Stack&) = delete;
 
     ::testing::AssertionResult same_as(const Stack& other) const {
         auto same = rays.same_as(other.rays, -Rays::guard, rays.capacity() + Rays::guard);
-        if (same) same = words.same_as(other.words, -Hits::guard, words.capacity() + Hits::guard);
         return same ? heights.same_as(other.heights, -Hits::guard, heights.capacity() + Hits::guard) : same;
     }
 };
@@ -50,19 +44,15 @@ class WhittedTest : public KernelTest {};
 TEST_P(WhittedTest, RaysExpireAtTheDepth) {
     for (const std::uint32_t depth : {0u, 1u, 5u, 20u}) {
         for (const std::uint32_t count : awkward_counts) {
-            Rays rays(kernels::round_up(count) + 16);
-            Slots slots(kernels::round_up(count) + 16);
+            Rays rays(kernels::round_up(count) + 16, Rays::InTrees{});
             for (std::uint32_t i = 0; i < count; ++i) {
                 put_ray(*rays, i, {0, 0, 0}, {0, 0, 1}, no_sphere, {0.5, 0, 0.25});
-                rays->slot[i] = count - 1 - i;
                 // Level i % 22 of the tree, its first node or its last.
                 const std::uint32_t level = i % 22;
-                slots->node[count - 1 - i] = i % 2 == 0 ? 1u << level : (2u << level) - 1;
+                rays->vertex[i] = i % 2 == 0 ? 1u << level : (2u << level) - 1;
             }
             Rays out = rays;
-            const Slots same_slots = slots;
-            stages.expire(*slots, depth, count, *out);
-            EXPECT_TRUE(slots.same_as(same_slots, -Slots::guard, slots.capacity() + Slots::guard));
+            stages.expire(depth, count, *out);
             EXPECT_TRUE(out.untouched_but(rays, 0, kernels::round_up(count)));
             for (std::uint32_t i = 0; i < count; ++i) {
                 const bool alive = i % 22 < depth;
@@ -74,16 +64,19 @@ TEST_P(WhittedTest, RaysExpireAtTheDepth) {
     }
 }
 
-TEST_P(WhittedTest, DescendDoublesTheNodesOfARun) {
-    Rays rays(64);
-    Slots slots(64);
-    for (std::uint32_t i = 0; i < 64; ++i) put_ray(*rays, i, {0, 0, 0}, {0, 0, 1});
-    for (std::uint32_t i = 0; i < 64; ++i) rays->slot[i] = 63 - i, slots->node[i] = i + 1;
-    stages.descend(*slots, {16, 17}, *rays);
-    for (std::uint32_t i = 0; i < 64; ++i) EXPECT_EQ(slots->node[63 - i], (i >= 16 && i < 33 ? 2 : 1) * (64 - i)) << i;
-    Slots untouched = slots;
-    stages.descend(*untouched, {0, 0}, *rays);
-    EXPECT_TRUE(untouched.same_as(slots, 0, 64));
+TEST_P(WhittedTest, AMirrorTakesARayToItsFirstChild) {
+    constexpr auto mirror = static_cast<std::size_t>(Scattering::specular);
+    const World world({{glm::dvec3(0), 1}}, {Surface{Scattering::specular}});
+    Rays rays(64, Rays::InTrees{}, {"pdf", "eta_scale"});
+    const Hits hits(64);
+    const Slots slots(16);
+    const Lobes no_lobes(0, {"lobe_x", "lobe_y", "lobe_z"});
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        put_ray(*rays, i, {3, 0, 0}, {-1, 0, 0});
+        rays->vertex[i] = i + 1, hits->id[i] = 0, hits->t[i] = 2;
+    }
+    stages.scatter[mirror]({world.spheres, world.materials, *slots, 0, 0, false}, {16, 17}, *rays, *hits, *no_lobes);
+    for (std::uint32_t i = 16; i < 33; ++i) EXPECT_EQ(rays->vertex[i], 2 * (i + 1)) << i;
 }
 
 World glass_world() {
@@ -102,9 +95,9 @@ TEST_P(WhittedTest, BranchesAreFresnels) {
     counts.push_back(2001);
     for (const std::uint32_t count : counts) {
         const std::uint32_t capacity = begin + kernels::padded_run(count) + 16;
-        Rays rays(capacity, {"pdf", "eta_scale"});
+        Rays rays(capacity, Rays::InTrees{}, {"pdf", "eta_scale"});
         Hits hits(capacity);
-        Slots slots(std::max(count, 1u));
+        const Slots slots(16);
         Stack stack(std::max(count, 1u), levels);
         Numbers random(count);
         for (std::uint32_t i = begin; i < begin + count; ++i) {
@@ -119,7 +112,7 @@ TEST_P(WhittedTest, BranchesAreFresnels) {
                     strength * random.colour());
             const std::uint32_t slot = begin + count - 1 - i;
             rays->slot[i] = slot;
-            slots->node[slot] = 1 + slot % 50;
+            rays->vertex[i] = 1 + slot % 50;
             stack.view.height[slot] = slot % levels;  // what is pending already stays below
             const Roots at = roots(origin_of(*rays, i), direction_of(*rays, i), c, world.radius(k));
             hits->t[i] = narrow(inside ? at.far : at.near);
@@ -127,20 +120,17 @@ TEST_P(WhittedTest, BranchesAreFresnels) {
         }
         Rays out = rays;
         Hits same_hits = hits;
-        Slots out_slots = slots;
         Stack out_stack = stack;
-        const auto run = [&](const auto& table, const Slots& s, const Rays& r, const Stack& st) {
-            table.branch({world.spheres, world.materials, *s, 0, 0, false}, {begin, count}, *r, *hits, st.view);
+        const auto run = [&](const auto& table, const Rays& r, const Stack& st) {
+            table.branch({world.spheres, world.materials, *slots, 0, 0, false}, {begin, count}, *r, *hits, st.view);
         };
-        run(stages, out_slots, out, out_stack);
+        run(stages, out, out_stack);
         EXPECT_TRUE(out.untouched_but(rays, begin, begin + kernels::round_up(count)));
         EXPECT_TRUE(hits.same_as(same_hits, -Hits::guard, hits.capacity() + Hits::guard));
         if (exact()) {
-            Slots same_slots = slots;
             Rays same = rays;
             Stack same_stack = stack;
-            run(scalar, same_slots, same, same_stack);
-            EXPECT_TRUE(out_slots.same_as(same_slots, -Slots::guard, slots.capacity() + Slots::guard));
+            run(scalar, same, same_stack);
             EXPECT_TRUE(out_stack.same_as(same_stack));
             for (std::uint32_t i = begin; i < begin + count; ++i)
                 if (hits->id[i] != no_sphere) {
@@ -153,7 +143,6 @@ TEST_P(WhittedTest, BranchesAreFresnels) {
             if (hits->id[i] == no_sphere) {
                 ASSERT_EQ(throughput_of(*out, i), glm::dvec3(0));
                 ASSERT_EQ(out_stack.view.height[slot], height);
-                ASSERT_EQ(out_slots->node[slot], slots->node[slot]) << "a miss is no scattering";
                 continue;
             }
             const std::uint32_t k = hits->id[i] & no_sphere, side = hits->id[i] & inside_bit;
@@ -183,7 +172,7 @@ TEST_P(WhittedTest, BranchesAreFresnels) {
             if (throughput_of(*out, i) != glm::dvec3(0)) {
                 ASSERT_LT(glm::length(direction_of(*out, i) - (continues ? refract(d, n, eta) : mirror(d, n))), slack);
                 ASSERT_EQ(out->left[i], k | (continues ? side ^ inside_bit : side));
-                ASSERT_EQ(out_slots->node[slot], 2 * slots->node[slot] + (continues ? 1 : 0));
+                ASSERT_EQ(out->vertex[i], 2 * rays->vertex[i] + (continues ? 1 : 0));
             }
             ASSERT_EQ(out_stack.view.height[slot], height + (both ? 1 : 0));
             if (!both) continue;
@@ -194,7 +183,7 @@ TEST_P(WhittedTest, BranchesAreFresnels) {
             ASSERT_TRUE(near(throughput_of(put_off, entry), mirrored));
             ASSERT_EQ(put_off.left[entry], k | side);
             ASSERT_EQ(put_off.slot[entry], slot);
-            ASSERT_EQ(out_stack.view.node[entry], 2 * slots->node[slot]);
+            ASSERT_EQ(put_off.vertex[entry], 2 * rays->vertex[i]);
         }
         EXPECT_LE(unsure, 1 + count / 20);
     }
@@ -207,13 +196,13 @@ TEST_P(WhittedTest, NoNumberIsLostWhicheverChannelItIsIn) {
         for (const double others : {0.0, 1e-9, 1.0}) {
             glm::dvec3 throughput(others);
             throughput[channel] = std::numeric_limits<double>::quiet_NaN();
-            const Rays rays(48, {"pdf", "eta_scale"});
+            const Rays rays(48, Rays::InTrees{}, {"pdf", "eta_scale"});
             const Hits hits(48);
             const Slots slots(16);
             const Stack stack(16, 2);
             put_ray(*rays, 0, {3, 0, 0}, {-1, 0, 0}, no_sphere, throughput);
             rays->slot[0] = 0;
-            slots->node[0] = 1;
+            rays->vertex[0] = 1;
             hits->id[0] = 0;
             hits->t[0] = 2;
             stages.branch({world.spheres, world.materials, *slots, 0, 0, false}, {0, 1}, *rays, *hits, stack.view);
@@ -227,13 +216,13 @@ TEST_P(WhittedTest, ResumeTakesTheTopBranchOfEverySlotWithoutARay) {
     for (const std::uint32_t slot_count : {1u, 15u, 17u, 125u}) {
         constexpr std::uint32_t levels = 3;
         const std::uint32_t capacity = kernels::round_up(slot_count) + 16;
-        Rays rays(capacity, {"pdf", "eta_scale"});
+        Rays rays(capacity, Rays::InTrees{}, {"pdf", "eta_scale"});
         Slots slots(slot_count);
         Stack stack(slot_count, levels);
         std::vector<std::uint32_t> live(slot_count, 0);
         std::uint32_t count = 0;
         for (std::uint32_t s = 0; s < slot_count; ++s) {
-            slots->node[s] = 1000 + s, slots->pixel[s] = 7 * s, slots->sample[s] = s % 3;
+            slots->pixel[s] = 7 * s, slots->sample[s] = s % 3;
             stack.view.height[s] = s % (levels + 1);
             for (std::uint32_t level = 0; level < levels; ++level) {
                 const std::uint32_t entry = level * slot_count + s;
@@ -242,7 +231,7 @@ TEST_P(WhittedTest, ResumeTakesTheTopBranchOfEverySlotWithoutARay) {
                 put3(stack.rays->tr, stack.rays->tg, stack.rays->tb, entry, glm::dvec3(0.5, level, s));
                 stack.rays->left[entry] = level + 10;
                 stack.rays->slot[entry] = s;
-                stack.view.node[entry] = 100 * level + s;
+                stack.rays->vertex[entry] = 100 * level + s;
             }
             if (s % 3 == 0) {  // this slot's ray is still alive
                 put_ray(*rays, count, {9, 9, 9}, {0, 0, 1});
@@ -258,12 +247,11 @@ TEST_P(WhittedTest, ResumeTakesTheTopBranchOfEverySlotWithoutARay) {
             const std::uint32_t height = s % (levels + 1);
             if (s % 3 == 0 || height == 0) {
                 EXPECT_EQ(stack.view.height[s], height);
-                EXPECT_EQ(slots->node[s], 1000 + s);
                 continue;
             }
             ASSERT_LT(at, size);
             EXPECT_EQ(stack.view.height[s], height - 1);
-            EXPECT_EQ(slots->node[s], 100 * (height - 1) + s);
+            EXPECT_EQ(rays->vertex[at], 100 * (height - 1) + s);
             EXPECT_EQ(origin_of(*rays, at), glm::dvec3(height - 1, s, 1));
             EXPECT_EQ(throughput_of(*rays, at), glm::dvec3(0.5, height - 1, s));
             EXPECT_EQ(rays->left[at], height - 1 + 10);
@@ -292,16 +280,15 @@ TEST_P(WhittedTest, ATreeIsWalkedDepthFirst) {
     for (std::uint32_t s = 0; s < slot_count; ++s) {
         const glm::dvec3 o = random.direction() * 4.0;
         put_ray(storage.rays, s, o, random.direction() * 0.9 - o);
-        storage.slots.node[s] = 1, storage.slots.pixel[s] = s, storage.slots.sample[s] = 0;
+        storage.rays.vertex[s] = 1, storage.slots.pixel[s] = s, storage.slots.sample[s] = 0;
     }
     std::vector<std::vector<std::uint32_t>> visited(slot_count);
     const kernels::ScatterContext<float> context{world.spheres, world.materials, storage.slots, 0, 0, false};
     for (int step = 0; count > 0; ++step) {
         ASSERT_LT(step, 100) << "the walk does not end";
-        for (std::uint32_t i = 0; i < count; ++i)
-            visited[storage.rays.slot[i]].push_back(storage.slots.node[storage.rays.slot[i]]);
+        for (std::uint32_t i = 0; i < count; ++i) visited[storage.rays.slot[i]].push_back(storage.rays.vertex[i]);
         stages.intersect(world.spheres, storage.rays, count, storage.hits);
-        stages.expire(storage.slots, depth, count, storage.rays);
+        stages.expire(depth, count, storage.rays);
         stages.branch(context, {0, count}, storage.rays, storage.hits, storage.branches);
         for (std::uint32_t s = 0; s < slot_count; ++s) ASSERT_LE(storage.branches.height[s], depth);
         kernels::Runs runs;

@@ -132,7 +132,7 @@ TEST(LightWeights, FindTheDarkestBesideTheBrightest) {
 template <class Real>
 void expect_columns(const Plan& plan) {
     const auto& tables = plan.tables<Real>();
-    const kernels::LightTable<Real>& table = tables.chosen_lights(true);
+    const kernels::LightTable<Real>& table = tables.lights(true);
     ASSERT_EQ(table.count, 4u);
     ASSERT_EQ(table.cells, 4u);
     const auto wanted = light_weights(plan.scene(), plan.settings().light_choice, true);
@@ -141,23 +141,11 @@ void expect_columns(const Plan& plan) {
         EXPECT_GE(table.share[i], 0);
         EXPECT_LE(table.share[i], 1);
         EXPECT_LT(table.other[i], 4u);
-        if (i >= 2) {
-            const auto& light = tables.area_lights[i - 2];
-            EXPECT_EQ(table.sphere[i], light.sphere);
-            EXPECT_EQ(table.radius[i], light.radius);
-            EXPECT_EQ(table.pz[i], light.cz);
-            EXPECT_EQ(table.g[i], light.g);
-            EXPECT_NEAR(tables.emission.probability[i - 2] * table.inverse_probability[i], 1, 1e-6);
-        } else {
-            EXPECT_EQ(table.sphere[i], no_sphere);
-            EXPECT_EQ(table.radius[i], 0);
-            EXPECT_EQ(table.py[i], tables.point_lights[i].py);
-            EXPECT_EQ(table.b[i], tables.point_lights[i].b);
-        }
+        EXPECT_NEAR(table.probability[i] * table.inverse_probability[i], 1, 1e-6);
     }
 }
 
-TEST(ChosenLights, StandInColumnsPointsFirst) {
+TEST(ChosenLights, HaveProbabilitiesInColumns) {
     Scene scene = lights();
     for (const LightChoice rule : {LightChoice::uniform, LightChoice::power}) {
         scene.settings.light_choice = rule;
@@ -169,7 +157,7 @@ TEST(ChosenLights, StandInColumnsPointsFirst) {
 }
 
 TEST(ChosenLights, AreThoseThatAVertexSamples) {
-    const auto cells = [](const Scene& scene, bool area) { return Plan(scene).tables().chosen_lights(area).cells; };
+    const auto cells = [](const Scene& scene, bool area) { return Plan(scene).tables().lights(area).cells; };
     Scene scene = lights();
     scene.settings.transport = Transport::mis;
     EXPECT_EQ(cells(scene, true), 4u);
@@ -180,7 +168,7 @@ TEST(ChosenLights, AreThoseThatAVertexSamples) {
     scene.settings.transport = Transport::naive;
     EXPECT_EQ(cells(scene, true), 0u);
     EXPECT_EQ(cells(scene, false), 2u);
-    EXPECT_EQ(Plan(scene).tables().emission.probability, nullptr) << "nothing competes";
+    EXPECT_EQ(Plan(scene).tables().lights(true).probability, nullptr) << "nothing competes";
     scene.settings.light_choice = LightChoice::all;
     EXPECT_EQ(cells(scene, false), 0u);
 }

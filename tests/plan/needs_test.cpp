@@ -101,7 +101,7 @@ TEST(Needs, LightsThatShine) {
     Needs needs = needs_of(scene);
     EXPECT_FALSE(needs.emitters || needs.background) << "switched off";
     EXPECT_EQ(needs.connect_point | needs.connect_area, 0u);
-    EXPECT_TRUE(Plan(scene).tables().point_lights.empty() && Plan(scene).tables().area_lights.empty());
+    EXPECT_EQ(Plan(scene).tables().lights(true).count, 0u);
 
     scene.background = {0, 0, 0.1};  // one channel is enough
     add_area_light(scene, {0, 0.1, 0});
@@ -110,8 +110,8 @@ TEST(Needs, LightsThatShine) {
     EXPECT_TRUE(needs.emitters && needs.background);
     EXPECT_NE(needs.connect_point, 0u);
     EXPECT_NE(needs.connect_area, 0u);
-    EXPECT_EQ(Plan(scene).tables().point_lights.size(), 1u);
-    EXPECT_EQ(Plan(scene).tables().area_lights.size(), 1u);
+    EXPECT_EQ(Plan(scene).tables().lights(true).points, 1u);
+    EXPECT_EQ(Plan(scene).tables().lights(true).count, 2u);
 }
 
 TEST(Needs, PointLightsSampledFromEverySurfaceButTheSmooth) {

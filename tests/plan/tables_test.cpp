@@ -59,10 +59,10 @@ TEST(SphereTable, HoldsManyPrimitivesInTheirTreesOrder) {
         EXPECT_EQ(s.surface[k] & kernels::surface_material_mask, p.material);
         ASSERT_EQ(emits(plan, k), p.emission.has_value());
         if (!p.emission) continue;
-        const auto& light = plan.tables().area_lights[s.light[k]];
-        EXPECT_EQ(light.sphere, k);
-        EXPECT_EQ(light.r, p.emission->r);
-        EXPECT_EQ(light.radius, s.radius[k]);
+        const auto& all = plan.tables().lights(true);
+        EXPECT_EQ(all.sphere[s.light[k]], k);
+        EXPECT_EQ(all.r[s.light[k]], p.emission->r);
+        EXPECT_EQ(all.radius[s.light[k]], s.radius[k]);
         EXPECT_EQ(s.light[k], lights++) << "lights stand in the scene's order";
     }
     EXPECT_GT(moved, 100u);
@@ -90,23 +90,26 @@ TEST(Lights, AreTheSpheresThatEmitAndThePoints) {
     const Plan plan(scene);
     EXPECT_FALSE(emits(plan, 0));
     EXPECT_FALSE(emits(plan, 1)) << "switched off";
-    ASSERT_EQ(plan.tables().area_lights.size(), 2u);
-    for (std::uint32_t i = 0; i < 2; ++i) {
-        const std::uint32_t sphere = i + 2;
-        const auto& light = plan.tables().area_lights[i];
+    const auto& lights = plan.tables().lights(true);
+    ASSERT_EQ(lights.points, 1u);
+    ASSERT_EQ(lights.count, 3u);
+    EXPECT_EQ(lights.cells, 0u) << "vertices sample them all";
+    const auto place = [&](std::uint32_t i) { return of_scene(plan, dvec3{lights.px[i], lights.py[i], lights.pz[i]}); };
+    const auto colour = [&](std::uint32_t i) { return dvec3{lights.r[i], lights.g[i], lights.b[i]}; };
+    EXPECT_EQ(place(0), (dvec3{0, 5, 0}));
+    EXPECT_EQ(of_scene(plan, of_scene(plan, colour(0))), (dvec3{7, 8, 9})) << "W/sr";
+    EXPECT_EQ(lights.radius[0], 0);
+    EXPECT_EQ(lights.sphere[0], kernels::no_sphere);
+    for (std::uint32_t i = 1; i < 3; ++i) {
+        const std::uint32_t sphere = i + 1;
         EXPECT_TRUE(emits(plan, sphere));
         EXPECT_EQ(plan.tables().spheres.light[sphere], i);
-        EXPECT_EQ(light.sphere, sphere);
-        EXPECT_EQ(of_scene(plan, dvec3{light.cx, light.cy, light.cz}), scene.primitives[sphere].centre);
-        EXPECT_EQ(of_scene(plan, light.radius), 1);
-        EXPECT_EQ((dvec3{light.r, light.g, light.b}), *scene.primitives[sphere].emission);
-        const auto& table = plan.tables().emission;
-        EXPECT_EQ((dvec3{table.r[i], table.g[i], table.b[i]}), *scene.primitives[sphere].emission);
+        EXPECT_EQ(lights.sphere[i], sphere);
+        EXPECT_EQ(place(i), scene.primitives[sphere].centre);
+        EXPECT_EQ(of_scene(plan, lights.radius[i]), 1);
+        EXPECT_EQ(colour(i), *scene.primitives[sphere].emission);
     }
-    ASSERT_EQ(plan.tables().point_lights.size(), 1u);
-    const auto& point = plan.tables().point_lights[0];
-    EXPECT_EQ(of_scene(plan, dvec3{point.px, point.py, point.pz}), (dvec3{0, 5, 0}));
-    EXPECT_EQ(of_scene(plan, of_scene(plan, dvec3{point.r, point.g, point.b})), (dvec3{7, 8, 9})) << "W/sr";
+    EXPECT_EQ(plan.tables().lights(false).count, 1u) << "the point light alone";
 }
 
 TEST(MaterialTable, HoldsEveryNumber) {
@@ -127,12 +130,12 @@ TEST(MaterialTable, HoldsEveryNumber) {
 
 TEST(Background, IsThatOfTheScene) {
     Scene scene = empty_world();
-    EXPECT_FALSE(Plan(scene).tables().emission.has_background);
+    EXPECT_FALSE(Plan(scene).tables().background.shines());
     scene.background = {0.25, 0, 4};
     const Plan plan(scene);
-    EXPECT_TRUE(plan.tables().emission.has_background);
-    EXPECT_EQ(plan.tables().emission.background_r, 0.25f);
-    EXPECT_EQ(plan.tables().emission.background_b, 4.0f);
+    EXPECT_TRUE(plan.tables().background.shines());
+    EXPECT_EQ(plan.tables().background.r, 0.25f);
+    EXPECT_EQ(plan.tables().background.b, 4.0f);
 }
 
 // Under AddressSanitizer this is the test that columns are padded, an empty scene's too.
@@ -141,15 +144,15 @@ TEST(Tables, CanBeReadAWholeVectorBehindTheEnd) {
         const Plan plan(scene);
         const auto& s = plan.tables().spheres;
         const auto& m = plan.tables().materials;
-        const auto& e = plan.tables().emission;
+        const auto& e = plan.tables().lights(true);
         float sum = 0;
         std::uint32_t words = 0;
         for (std::uint32_t i = 0; i < kernels::widest; ++i) {
             for (const float* column : {s.cx, s.cy, s.cz, s.radius}) sum += column[s.count + i];
             for (const float* column : {m.rho_r, m.rho_g, m.rho_b, m.tau_r, m.tau_g, m.tau_b, m.eta, m.roughness})
                 sum += column[m.count + i];
-            for (const float* column : {e.r, e.g, e.b}) sum += column[e.count + i];
-            words |= s.surface[s.count + i] | s.light[s.count + i];
+            for (const float* column : {e.px, e.py, e.pz, e.radius, e.r, e.g, e.b}) sum += column[e.count + i];
+            words |= s.surface[s.count + i] | s.light[s.count + i] | e.sphere[e.count + i];
         }
         EXPECT_EQ(sum, 0);
         EXPECT_EQ(words, 0u);
