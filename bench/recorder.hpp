@@ -1,32 +1,30 @@
 // Stage calls of real renders, recorded.
 //
-// A wave calls its stages through a table. The recorder gives it a table whose entries note what they are called with
-// and pass the call on: the pages run as they always do, and know nothing of it.
+// A wave lets an observer make the calls of its stages. The recorder is one that notes what they are made with first:
+// integrators run as they always do, and know nothing of it.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "bench/snapshot.hpp"
-#include "kernels/stages.hpp"
 #include "plan/plan.hpp"
+#include "wavefront/pipeline.hpp"
 
 namespace orrery::bench {
 
 /// One call of one stage: its input, and how to make it again.
 struct StageCall {
-    std::string stage;          ///< "intersect", "scatter glossy", ...
-    std::uint32_t bounce = 0;   ///< how many times the wave's rays have scattered
-    std::uint32_t rays = 0;     ///< records the stage runs over
-    std::uint32_t bytes = 0;    ///< read and written per record, by the fields the stage touches; those of records it
-                                ///< makes are counted once per record it runs over
-    std::uint32_t results = 0;  ///< Parts that hold what it computed
-    std::uint32_t slots = 0;    ///< of the wave
+    std::string stage;                        ///< "intersect", "scatter glossy", ...
+    std::uint32_t bounce = 0;                 ///< how many times the wave's rays have scattered
+    std::uint32_t rays = 0;                   ///< records the stage runs over
+    std::uint32_t bytes = 0;                  ///< read and written per record, as the profile counts them
+    std::uint32_t results = 0;                ///< Parts that hold what it computed
+    std::uint32_t slots = 0;                  ///< of the wave
     std::uint32_t skip = kernels::no_sphere;  ///< shadow: the light's own sphere
     Snapshot before;
     /// Runs the stage of `stages` on the restored queues; returns the records of `results` that it left.
-    std::function<kernels::Runs(const kernels::Stages<float>& stages, WaveStorage<float>& wave)> run;
+    StageRun<float> run;
 };
 
 /// All the calls a benchmark makes: one per wave.

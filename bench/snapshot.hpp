@@ -4,20 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "wavefront/wave_storage.hpp"
+#include "wavefront/pipeline.hpp"
 
 namespace orrery::bench {
-
-/// Queues of a WaveStorage, as bits.
-enum Parts : std::uint32_t {
-    slot_part = 1,      ///< pixel, sample, node, plane: what identifies the slots
-    radiance_part = 2,  ///< what the slots gathered
-    ray_part = 4,
-    hit_part = 8,
-    lobe_part = 16,
-    shadow_part = 32,
-    sorted_part = 64,  ///< sorted rays and hits
-};
 
 /// Calls visit(name, array, words) for every array that is present among `parts`, `slots` and `records` long.
 template <class Storage, class Visit>
@@ -30,7 +19,6 @@ void each_array(Storage& storage, std::uint32_t parts, std::uint32_t slots, std:
     if (parts & slot_part) {
         visit("pixel", storage.slots.pixel, std::size_t{slots});
         visit("sample", storage.slots.sample, std::size_t{slots});
-        if (storage.slots.node != nullptr) visit("node", storage.slots.node, std::size_t{slots});
         visit("plane_x", storage.slots.plane_x, std::size_t{slots});
         visit("plane_y", storage.slots.plane_y, std::size_t{slots});
     }

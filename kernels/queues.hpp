@@ -151,6 +151,7 @@ struct Range {
 /// A ray queue split by way of scattering, in enum order. Between runs lies anything.
 struct Runs {
     Range run[scattering_count];
+    bool moved = false;  ///< by sorting: the records stand in the other queues
 };
 
 /// What a run of `count` records takes of a queue: compress writes whole vectors, up to one less than `widest` records

@@ -46,14 +46,14 @@ ORRERY_INLINE bool is_sorted(const Runs& runs, std::uint32_t count) {
     return present == 0 || (present == 1 && hits >= count - count / 8);
 }
 
-/// Returns whether anything moved. If not, the queues are one run as they are, misses among it, as in a scene that
-/// has one way of scattering only. `kinds` has bit k set where the plan knows kind k; no other is looked for.
+/// Where nothing moved the queues are one run as they are, misses among it, as in a scene that has one way of
+/// scattering only. `kinds` has bit k set where the plan knows kind k; no other is looked for.
 template <class V>
-bool sort_by_scattering(const SphereTable<typename V::Real>& spheres, std::uint32_t kinds,
+Runs sort_by_scattering(const SphereTable<typename V::Real>& spheres, std::uint32_t kinds,
                         const RayQueue<typename V::Real>& rays, const HitQueue<typename V::Real>& hits,
                         std::uint32_t count, const RayQueue<typename V::Real>& sorted_rays,
-                        const HitQueue<typename V::Real>& sorted_hits, Runs& runs) {
-    runs = {};
+                        const HitQueue<typename V::Real>& sorted_hits) {
+    Runs runs;
     std::uint32_t dead = 0;  // they may have hit anything, also what no kernel of the run knows
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const auto hit = live_hits<V>(spheres, rays, hits, i, count);
@@ -66,8 +66,9 @@ bool sort_by_scattering(const SphereTable<typename V::Real>& spheres, std::uint3
     if (dead == 0 && is_sorted(runs, count)) {
         for (Range& run : runs.run)
             if (run.count != 0) run = {0, count};
-        return false;
+        return runs;
     }
+    runs.moved = true;
     std::uint32_t to[scattering_count];
     std::uint32_t end = 0;
     for (std::uint32_t k = 0; k < scattering_count; ++k) {
@@ -85,7 +86,7 @@ bool sort_by_scattering(const SphereTable<typename V::Real>& spheres, std::uint3
             to[k] += static_cast<std::uint32_t>(std::popcount(chosen));
         }
     }
-    return true;
+    return runs;
 }
 
 }  // namespace orrery::kernels

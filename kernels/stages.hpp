@@ -27,9 +27,9 @@ struct Stages {
 
     void (*emission)(const SphereTable<Real>&, const LightTable<Real>&, const Background<Real>&, LightStrategy,
                      const RayQueue<Real>&, const HitQueue<Real>&, std::uint32_t count, const SlotTable<Real>&);
-    bool (*sort_by_scattering)(const SphereTable<Real>&, std::uint32_t kinds, const RayQueue<Real>&,
+    Runs (*sort_by_scattering)(const SphereTable<Real>&, std::uint32_t kinds, const RayQueue<Real>&,
                                const HitQueue<Real>&, std::uint32_t count, const RayQueue<Real>& sorted_rays,
-                               const HitQueue<Real>& sorted_hits, Runs&);
+                               const HitQueue<Real>& sorted_hits);
     using Scatter = void (*)(const ScatterContext<Real>&, Range, const RayQueue<Real>&, const HitQueue<Real>&,
                              const LobeQueue<Real>&);
     Scatter scatter[scattering_count];  ///< by Scattering

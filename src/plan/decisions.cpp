@@ -38,6 +38,9 @@ std::vector<Decision> Plan::decisions() const {
                                 counted(nodes_, "node"))
                   : fmt::format("{}: one loop is faster below {}", counted(scene_.primitives.size(), "sphere"),
                                 tree_crossover));
+    decide("intersect: packets", n.packets,
+           n.packets ? "neighbouring rays that run alike look for their spheres together"
+                     : fmt::format("{}: they are sooner tested", counted(scene_.primitives.size(), "sphere")));
     decide("generate: lens", n.lens,
            n.lens ? fmt::format("aperture {}", scene_.camera.aperture) : "the camera is a pinhole");
     decide("random numbers: points", n.points,

@@ -62,6 +62,7 @@ void Plan::plan_tables(unsigned threads) {
     std::vector<std::uint32_t> order(scene_.primitives.size());
     std::iota(order.begin(), order.end(), 0u);
     needs_.tree = order.size() >= tree_crossover;
+    needs_.packets = order.size() >= packet_crossover;
     Tree tree;
     if (needs_.tree) {
         std::vector<BuildSphere> spheres;

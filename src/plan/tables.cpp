@@ -40,7 +40,6 @@ kernels::Scattering scattering_of(const Material& material, Integrator integrato
     return integrator == Integrator::whitted ? kernels::scattering_traits[kind].unperturbed
                                              : static_cast<kernels::Scattering>(kind);
 }
-static_assert(static_cast<std::size_t>(MaterialKind::translucent) + 1 == kernels::scattering_count);
 
 bool shines(const glm::dvec3& light) { return light.r != 0 || light.g != 0 || light.b != 0; }
 bool emits(const Primitive& primitive) { return primitive.emission && shines(*primitive.emission); }

@@ -26,6 +26,7 @@ struct Camera {
     double focal_distance = 1;
 };
 
+/// In the order of kernels::Scattering, which has one way of scattering for each.
 enum class MaterialKind : std::uint8_t { diffuse, specular, glossy, dielectric, translucent };
 
 struct Material {

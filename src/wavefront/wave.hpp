@@ -1,24 +1,16 @@
 // One thread's wave: the storage, the plan it runs, and what it counted.
 #pragma once
 
-#include <array>
-
 #include "film/contrasts.hpp"
-#include "kernels/stages.hpp"
 #include "wavefront/cancellation.hpp"
+#include "wavefront/pipeline.hpp"
 #include "wavefront/render.hpp"
-#include "wavefront/wave_storage.hpp"
 
 namespace orrery {
 
-/// A StageCost before ticks are known as seconds.
-struct StageTicks {
-    std::uint64_t ticks = 0, rays = 0, lanes = 0, filled = 0, bytes = 0;
-};
-
 /// What one thread adds to RenderStats.
 struct WaveCounters {
-    std::array<std::array<StageTicks, stage_names.size()>, profile_bounces> bounces{};
+    TicksByBounce ticks{};
     std::uint64_t closest_rays = 0;
     std::uint64_t shadow_rays = 0;
     std::uint64_t dropped_samples = 0;
@@ -32,6 +24,7 @@ struct Wave {
         : plan(the_plan),
           tables(the_plan.tables<Real>()),
           stages(the_stages),
+          pipeline(the_plan, the_stages),
           film(the_film),
           cancellation(cancels),
           camera(tables.camera),
@@ -40,6 +33,8 @@ struct Wave {
     const Plan& plan;
     const Tables<Real>& tables;
     const kernels::Stages<Real>& stages;
+    const Pipeline<Real> pipeline;
+    StageObserver<Real> observer{};  ///< mostly none
     Film& film;
     const Cancellation& cancellation;
     kernels::CameraTable<Real> camera;  ///< with the cells of the task being rendered
@@ -48,6 +43,29 @@ struct Wave {
     WaveCounters counters;
     std::uint32_t count = 0;    ///< slots in use
     std::uint32_t unasked = 0;  ///< rays since the last question
+
+    // The steps of an integrator. `rays` is how many there are, `bounce` how often they have scattered.
+
+    /// Camera -> ray queue. Returns the number of rays, one per slot.
+    std::uint32_t generate();
+    /// Rays -> hits.
+    void intersect(std::uint32_t rays, std::uint32_t bounce);
+    /// Hits -> the radiance rays run into.
+    void gather_emission(std::uint32_t rays, std::uint32_t bounce);
+    /// Hits -> one run per way of scattering. Where the scene has one way, the queue is the run, misses included.
+    kernels::Runs sort(std::uint32_t rays, std::uint32_t bounce);
+    /// A run's hits -> the rays that leave them.
+    void scatter(kernels::Scattering kind, const kernels::Runs& runs, std::uint32_t bounce);
+    /// Vertices -> shadow queue -> radiance, for every run that samples lights.
+    void direct_lighting(const kernels::Runs& runs, std::uint32_t bounce);
+    /// Kill, weigh, compact. Returns the number of survivors.
+    std::uint32_t roulette(const kernels::Runs& runs, std::uint32_t bounce);
+
+    // Whitted ray tracing's own: kill the rays that have scattered often enough; dielectrics' hits -> transmitted rays,
+    // reflected ones put off; take up what was put off, to so many rays.
+    void expire(std::uint32_t rays);
+    void branch(const kernels::Runs& runs, std::uint32_t bounce);
+    std::uint32_t resume(std::uint32_t rays, std::uint32_t bounce);
 
     /// To be called before a stage takes so many rays: asks now and then whether the work is still wanted. A ray takes
     /// a stage microseconds at most, so that milliseconds pass between two questions, and a question costs less than a
@@ -59,12 +77,15 @@ struct Wave {
         unasked = 0;
         cancellation.check();
     }
+
+private:
+    /// Makes a call, and charges time and traffic to its place in the profile.
+    template <class Make>
+    kernels::Runs call(const StageCall& what, const Make& make);
+    void light(kernels::Scattering kind, const kernels::Range& vertices, std::uint32_t which, std::uint32_t bounce);
 };
 
-/// What a thread's counters say, at so many seconds a tick; `others` is left to the caller.
-Profile profile_of(const WaveCounters& counters, double seconds_per_tick);
-
-/// The pages: each takes a wave whose slots are filled to its end and leaves the radiance in the slots
+/// The integrators: each takes a wave whose slots are filled to its end and leaves the radiance in the slots
 /// (trace_distances: the distance in all three channels). They throw what Cancellation throws.
 template <class Real>
 void trace_paths(Wave<Real>& wave);

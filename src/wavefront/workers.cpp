@@ -2,8 +2,6 @@
 
 #include <stdexcept>
 
-#include "wavefront/stage_timer.hpp"
-
 namespace orrery {
 namespace {
 
@@ -24,7 +22,7 @@ Workers<Real>::Workers(const Plan& plan, const RenderOptions& options, Film& fil
       film_(film),
       cancellation_(cancellation),
       wave_size_(choose_wave_size(plan, options.wave_size)),
-      first_tick_(TickClock::now()),
+      first_tick_(tick_count()),
       team_(options.threads),
       waves_(team_.size()) {}
 
@@ -56,7 +54,7 @@ std::uint64_t Workers<Real>::dropped_samples() const {
 template <class Real>
 void Workers<Real>::report(RenderStats& stats) const {
     stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const double seconds_per_tick = stats.seconds / static_cast<double>(TickClock::now() - first_tick_);
+    const double seconds_per_tick = stats.seconds / static_cast<double>(tick_count() - first_tick_);
     stats.isa = stages_.isa;
     stats.threads = team_.size();
     stats.refused_threads = team_.refused();
@@ -65,7 +63,7 @@ void Workers<Real>::report(RenderStats& stats) const {
     stats.bytes_per_ray = stats.queue_bytes / wave_size_;
     for (const auto& wave : waves_) {
         if (!wave) continue;
-        stats.profile.add(profile_of(wave->counters, seconds_per_tick));
+        stats.profile.add(profile_of(wave->counters.ticks, seconds_per_tick));
         stats.closest_rays += wave->counters.closest_rays;
         stats.shadow_rays += wave->counters.shadow_rays;
     }

@@ -1,0 +1,242 @@
+#include "wavefront/wave.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace orrery {
+
+using kernels::Range;
+using kernels::Runs;
+using kernels::Scattering;
+
+namespace {
+
+constexpr StageInfo generate_info{"generate", Stage::generate, slot_part, ray_part | radiance_part};
+constexpr StageInfo intersect_info{"intersect", Stage::intersect, ray_part, hit_part};
+constexpr StageInfo emission_info{"emission", Stage::shade, radiance_part | ray_part | hit_part, radiance_part, true};
+constexpr StageInfo sort_info{"sort", Stage::shade, ray_part | hit_part, sorted_part, true};
+constexpr StageInfo scatter_info{"scatter", Stage::shade, slot_part | ray_part | hit_part, ray_part};
+constexpr StageInfo rough_info{"scatter", Stage::shade, slot_part | ray_part | hit_part, ray_part | lobe_part};
+constexpr StageInfo connect_info{"connect", Stage::shade, slot_part | ray_part | lobe_part, shadow_part, true};
+constexpr StageInfo shadow_info{"shadow", Stage::shadow, radiance_part | shadow_part, radiance_part};
+constexpr StageInfo roulette_info{"roulette", Stage::roulette, slot_part | ray_part, ray_part};
+constexpr StageInfo branch_info{"branch", Stage::shade, 0, 0};
+constexpr StageInfo resume_info{"resume", Stage::roulette, 0, 0};
+
+/// Bytes of a record of the queue, absent fields left out.
+template <class Queue>
+std::uint32_t record_bytes(const Queue& queue) {
+    std::size_t sum = 0;
+    Queue::each_field([&](const char*, auto field) { sum += queue.*field != nullptr ? sizeof(*(queue.*field)) : 0; });
+    return static_cast<std::uint32_t>(sum);
+}
+
+/// Bytes of so many numbers or words.
+template <class Real>
+constexpr std::uint32_t words(std::uint32_t n) {
+    return n * static_cast<std::uint32_t>(sizeof(Real));
+}
+
+Runs only(const Range& run) {
+    Runs runs;
+    runs.run[0] = run;
+    return runs;
+}
+
+/// What builds a scattering stage's context on some queues; it outlives the wave.
+template <class Real>
+auto scattering_on(const Wave<Real>& w, std::uint32_t bounce) {
+    return [&tables = w.tables, seed = w.plan.settings().seed, bounce,
+            competing = w.plan.needs().competing](const WaveStorage<Real>& q) {
+        return kernels::ScatterContext<Real>{tables.spheres, tables.materials, q.slots, seed, bounce, competing};
+    };
+}
+
+}  // namespace
+
+template <class Real>
+template <class Make>
+Runs Wave<Real>::call(const StageCall& what, const Make& make) {
+    const std::size_t bounce = std::min<std::size_t>(what.bounce, profile_bounces - 1);
+    StageTicks& to = counters.ticks[bounce][static_cast<std::size_t>(what.stage.counted)];
+    const std::uint32_t rays = what.records.count;
+    const std::uint64_t start = tick_count();
+    const Runs left = observer ? observer(what, make) : make(stages, storage);
+    to.ticks += tick_count() - start;
+    to.rays += what.stage.again ? 0 : rays;
+    to.bytes += std::uint64_t{rays} * (what.bytes + (left.moved ? what.moved_bytes : 0));
+    if (what.lanes != 0) {
+        to.lanes += std::uint64_t{(rays + what.lanes - 1) / what.lanes} * what.lanes;
+        to.filled += rays;
+    }
+    return left;
+}
+
+template <class Real>
+std::uint32_t Wave<Real>::generate() {
+    const std::uint32_t bytes = words<Real>(4) + record_bytes(storage.rays) + words<Real>(4);
+    call({generate_info, 0, {0, count}, bytes, stages.step},
+         [from = camera, stage = pipeline.generate, rays = count, seed = plan.settings().seed](const auto& s, auto& q) {
+             (s.*stage)(from, q.slots, rays, seed, q.rays);
+             return only({0, rays});
+         });
+    return count;
+}
+
+template <class Real>
+void Wave<Real>::intersect(std::uint32_t rays, std::uint32_t bounce) {
+    const std::uint32_t bytes = words<Real>(3 + 3 + 1) + record_bytes(storage.hits);
+    call({intersect_info, bounce, {0, rays}, bytes, pipeline.sphere_step},
+         [&spheres = tables.spheres, stage = pipeline.intersect, rays](const auto& s, auto& q) {
+             (s.*stage)(spheres, q.rays, rays, q.hits);
+             return only({0, rays});
+         });
+    counters.closest_rays += rays;
+}
+
+template <class Real>
+void Wave<Real>::gather_emission(std::uint32_t rays, std::uint32_t bounce) {
+    if (!pipeline.emission) return;
+    // The hits' ids; what few rays run into light load more.
+    call({emission_info, bounce, {0, rays}, words<Real>(1), stages.step},
+         [&t = tables, strategy = pipeline.strategy, rays](const auto& s, auto& q) {
+             s.emission(t.spheres, t.lights(true), t.background, strategy, q.rays, q.hits, rays, q.slots);
+             return only({0, rays});
+         });
+}
+
+template <class Real>
+Runs Wave<Real>::sort(std::uint32_t rays, std::uint32_t bounce) {
+    Runs runs;
+    if (!plan.needs().sort) {
+        for (const Scattering kind : pipeline.kinds) runs.run[static_cast<std::size_t>(kind)] = {0, rays};
+        return runs;
+    }
+    const std::uint32_t moved = 2 * (record_bytes(storage.rays) + record_bytes(storage.hits));
+    runs = call({sort_info, bounce, {0, rays}, words<Real>(3 + 1), stages.lanes, "", moved},
+                [&spheres = tables.spheres, kinds = plan.needs().scattering, rays](const auto& s, auto& q) {
+                    return s.sort_by_scattering(spheres, kinds, q.rays, q.hits, rays, q.sorted_rays, q.sorted_hits);
+                });
+    if (runs.moved) {
+        std::swap(storage.rays, storage.sorted_rays);
+        std::swap(storage.hits, storage.sorted_hits);
+    }
+    return runs;
+}
+
+template <class Real>
+void Wave<Real>::scatter(Scattering kind, const Runs& runs, std::uint32_t bounce) {
+    const auto k = static_cast<std::size_t>(kind);
+    const Range hits = runs.run[k];
+    if (hits.count == 0) return;
+    const kernels::ScatteringTraits& traits = kernels::traits_of(kind);
+    const bool rough = traits.is_rough();
+    // Read and written in place but for the slot, pixel and sample, which are only read.
+    const std::uint32_t bytes = 2 * record_bytes(storage.rays) - words<Real>(3) + record_bytes(storage.hits) +
+                                (rough ? record_bytes(storage.lobes) : 0);
+    call({rough ? rough_info : scatter_info, bounce, hits, bytes, stages.step, traits.name},
+         [context = scattering_on(*this, bounce), k, hits](const auto& s, auto& q) {
+             s.scatter[k](context(q), hits, q.rays, q.hits, q.lobes);
+             return only(hits);
+         });
+}
+
+template <class Real>
+void Wave<Real>::direct_lighting(const Runs& runs, std::uint32_t bounce) {
+    for (const Scattering kind : pipeline.lit) {
+        const Range vertices = runs.run[static_cast<std::size_t>(kind)];
+        if (vertices.count == 0) continue;
+        const kernels::LightTable<Real>& lights = pipeline.lights_of(kind, tables);
+        if (lights.cells != 0) {
+            light(kind, vertices, kernels::chosen_light, bounce);
+        } else {
+            for (std::uint32_t l = 0; l < lights.count; ++l) light(kind, vertices, l, bounce);
+        }
+    }
+}
+
+/// The vertices of a run towards one light, or each towards the one it chooses; and what of that arrives.
+template <class Real>
+void Wave<Real>::light(Scattering kind, const Range& vertices, std::uint32_t which, std::uint32_t bounce) {
+    const kernels::LightTable<Real>& lights = pipeline.lights_of(kind, tables);
+    const kernels::Response response = kernels::traits_of(kind).response;
+    const bool chosen = which == kernels::chosen_light;
+    const std::uint32_t bytes = words<Real>(3 + 3 + 4) + record_bytes(storage.shadows) +
+                                (response == kernels::Response::glossy ? record_bytes(storage.lobes) : 0);
+    proceed(vertices.count);
+    const Runs aimed =
+        call({connect_info, bounce, vertices, bytes, stages.step,
+              chosen                  ? "chosen"
+              : which < lights.points ? "point"
+                                      : "area"},
+             [&t = tables, &lights, response, vertices, which, bounce, seed = plan.settings().seed,
+              strategy = pipeline.strategy, competing = plan.needs().competing](const auto& s, auto& q) {
+                 const auto stage = s.connect[static_cast<std::size_t>(response)];
+                 return only({0, stage({t.spheres, t.materials, lights, q.slots, seed, bounce, strategy, competing},
+                                       which, vertices, q.rays, q.lobes, q.shadows)});
+             });
+    const std::uint32_t rays = aimed.run[0].count;
+    if (rays == 0) return;
+    const std::uint32_t target = chosen ? kernels::no_sphere : static_cast<std::uint32_t>(lights.sphere[which]);
+    call({shadow_info,
+          bounce,
+          {0, rays},
+          record_bytes(storage.shadows) + 2 * words<Real>(4),
+          pipeline.sphere_step,
+          "",
+          0,
+          target},
+         [&spheres = tables.spheres, stage = pipeline.shadow, rays, target](const auto& s, auto& q) {
+             (s.*stage)(spheres, q.shadows, rays, target, q.slots);
+             return only({0, rays});
+         });
+    counters.shadow_rays += rays;
+}
+
+template <class Real>
+std::uint32_t Wave<Real>::roulette(const Runs& runs, std::uint32_t bounce) {
+    std::uint32_t rays = 0, end = 0;
+    for (const Range& run : runs.run) {
+        rays += run.count;
+        if (run.count != 0) end = run.begin + run.count;
+    }
+    const bool play = bounce >= pipeline.roulette_from;
+    return call({roulette_info, bounce, {end - rays, rays}, 2 * record_bytes(storage.rays), stages.step},
+                [seed = plan.settings().seed, bounce, play, runs](const auto& s, auto& q) {
+                    return only({0, s.roulette(q.slots, seed, bounce, play, runs, q.rays)});
+                })
+        .run[0]
+        .count;
+}
+
+template <class Real>
+void Wave<Real>::expire(std::uint32_t rays) {
+    stages.expire(plan.settings().depth, rays, storage.rays);
+}
+
+template <class Real>
+void Wave<Real>::branch(const Runs& runs, std::uint32_t bounce) {
+    const Range hits = runs.run[static_cast<std::size_t>(Scattering::dielectric)];
+    if (hits.count == 0) return;
+    call({branch_info, bounce, hits, 2 * record_bytes(storage.rays), stages.lanes},
+         [context = scattering_on(*this, 0), hits](const auto& s, auto& q) {
+             s.branch(context(q), hits, q.rays, q.hits, q.branches);
+             return only(hits);
+         });
+}
+
+template <class Real>
+std::uint32_t Wave<Real>::resume(std::uint32_t rays, std::uint32_t bounce) {
+    if (!plan.needs().branches) return rays;
+    return call({resume_info, bounce, {}, 0, 0},
+                [rays](const auto& s, auto& q) {
+                    return only({0, s.resume(q.slots, q.branches, rays, q.rays, q.live)});
+                })
+        .run[0]
+        .count;
+}
+
+template struct Wave<float>;
+template struct Wave<double>;
+
+}  // namespace orrery
