@@ -5,28 +5,13 @@
 // surface's weight, so that what is missing is density of scattering over density of light sampling.
 #pragma once
 
-#include "kernels/compress.hpp"
-#include "kernels/glossy.hpp"
+#include "kernels/lanes/compress.hpp"
 #include "kernels/light.hpp"
+#include "kernels/lobes.hpp"
+#include "kernels/stages.hpp"
 #include "kernels/vertex.hpp"
 
 namespace orrery::kernels {
-
-template <class Real>
-struct ConnectContext {
-    SphereTable<Real> spheres;
-    MaterialTable<Real> materials;
-    LightTable<Real> lights;
-    SlotTable<Real> slots;
-    std::uint32_t seed = 0;
-    std::uint32_t bounce = 0;
-    LightStrategy strategy = LightStrategy::area;
-    /// Whether the light sample competes with scattering that may find the light as well (mis).
-    bool competing = false;
-};
-
-/// In place of a light's number: every vertex chooses its own.
-inline constexpr std::uint32_t chosen_light = 0xFFFFFFFFu;
 
 /// A vector of vertices, as the lights' samplers see it.
 template <class V>

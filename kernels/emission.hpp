@@ -3,7 +3,7 @@
 
 #include "kernels/light.hpp"
 #include "kernels/queues.hpp"
-#include "kernels/rows.hpp"
+#include "kernels/radiance.hpp"
 
 namespace orrery::kernels {
 
@@ -17,16 +17,6 @@ ORRERY_INLINE typename V::F scattering_weight(const typename V::F& pdf, const ty
     const auto whole = pdf > F(std::numeric_limits<typename V::Real>::max());
     const F share = F(1) / (F(1) + light_pdf / pdf);
     return choose(whole, F(1), max(share, pdf * F(0)));  // the second where the first is no number
-}
-
-/// Adds the chosen lanes to their slots.
-template <class V>
-ORRERY_INLINE void add_radiance(const SlotTable<typename V::Real>& slots, const typename V::U& slot,
-                                const Vec3<typename V::F>& radiance, const typename V::M& chosen) {
-    using F = typename V::F;
-    using U = typename V::U;
-    const Vec3<F> none{F(0), F(0), F(0)};
-    add_to_rows<V>(slots.radiance, choose(chosen, slot, U(0u)), choose(chosen, radiance, none));
 }
 
 /// `lights` are all that a vertex may sample, with their probabilities where it samples one of them.

@@ -3,13 +3,12 @@
 
 #include <utility>
 
+#include "kernels/connect.hpp"
+#include "kernels/emission.hpp"
 #include "kernels/generate.hpp"
 #include "kernels/roulette.hpp"
-#include "kernels/shadow.hpp"
+#include "kernels/segment.hpp"
 #include "kernels/sort.hpp"
-#include "kernels/stages.hpp"
-#include "kernels/tree_stages.hpp"
-#include "kernels/twin_lanes.hpp"
 #include "kernels/whitted.hpp"
 
 namespace orrery::kernels {
@@ -43,8 +42,8 @@ constexpr Stages<typename V::Real> make_stages(Isa isa) {
     s.expire = expire<V>;
     s.branch = branch<V>;
     s.resume = resume<V>;
-    s.intersects = intersects_any_table<V>;
-    s.is_occluded = is_occluded_any_table<V>;
+    s.intersects = intersects_columns<V>;
+    s.is_occluded = is_occluded_columns<V>;
     return s;
 }
 

@@ -1,7 +1,7 @@
 // Stage `roulette`: kill, weigh, compact the survivors to the front.
 #pragma once
 
-#include "kernels/compress.hpp"
+#include "kernels/lanes/compress.hpp"
 #include "kernels/vertex.hpp"
 
 namespace orrery::kernels {

@@ -4,24 +4,11 @@
 
 #include <limits>
 
-#include "kernels/fresnel.hpp"
-#include "kernels/glossy.hpp"
+#include "kernels/lobes.hpp"
+#include "kernels/stages.hpp"
 #include "kernels/vertex.hpp"
 
 namespace orrery::kernels {
-
-/// What all scattering kernels of a plan share.
-template <class Real>
-struct ScatterContext {
-    SphereTable<Real> spheres;
-    MaterialTable<Real> materials;
-    SlotTable<Real> slots;
-    std::uint32_t seed = 0;
-    std::uint32_t bounce = 0;
-    /// Whether emission found by scattering competes with light samples at every non-delta vertex (mis) or is not
-    /// counted behind diffuse ones (nee). Read only where RayQueue::pdf is present.
-    bool competing_pdf = false;
-};
 
 /// What a scattering event makes of a ray, its throughput apart.
 template <class V>

@@ -1,8 +1,9 @@
 // Ray casting for everybody: closest hit and occlusion of a segment (O, D, t_min, t_max), one at a time or in vectors.
 //
-// Both forms are the maths body of the wavefront's stages (intersect.hpp) over scalar or vector lanes.
+// Both forms are the maths body of the wavefront's stages (loop.hpp, tree_cast.hpp) over scalar or vector lanes.
 #pragma once
 
+#include "kernels/stages.hpp"
 #include "kernels/tree_cast.hpp"
 
 namespace orrery::kernels {
@@ -59,11 +60,6 @@ bool is_occluded(const SphereTable<Real>& spheres, const Segment<Real>& segment)
                       no_sphere, true);
 }
 
-/// Segments as columns, capacity a multiple of `widest`.
-template <class Real>
-struct SegmentColumns {
-    const Real *ox, *oy, *oz, *dx, *dy, *dz, *t_min, *t_max;
-};
 template <class Real>
 ORRERY_INLINE TreeSource<Real> source_of(const SegmentColumns<Real>& s, std::uint32_t at) {
     return {s.ox + at, s.oy + at, s.oz + at, s.dx + at, s.dy + at, s.dz + at, nullptr, s.t_min + at};
@@ -75,13 +71,26 @@ void intersects_columns(const SphereTable<typename V::Real>& spheres, const Segm
                         std::uint32_t count, const HitQueue<typename V::Real>& hits) {
     using F = typename V::F;
     using U = typename V::U;
-    for (std::uint32_t i = 0; i < count; i += V::count) {
-        const auto best = closest_hit<V>(spheres, AllSpheres{spheres.count},
-                                         load3<V>(segments.ox + i, segments.oy + i, segments.oz + i),
-                                         load3<V>(segments.dx + i, segments.dy + i, segments.dz + i), U(no_sphere),
-                                         load<F>(segments.t_min + i), load<F>(segments.t_max + i));
-        save(hits.t + i, best.num / best.den);
-        save(hits.id + i, best.id);
+    if (spheres.tree.count == 0) {
+        for (std::uint32_t i = 0; i < count; i += V::count) {
+            const auto best = closest_hit<V>(spheres, AllSpheres{spheres.count},
+                                             load3<V>(segments.ox + i, segments.oy + i, segments.oz + i),
+                                             load3<V>(segments.dx + i, segments.dy + i, segments.dz + i), U(no_sphere),
+                                             load<F>(segments.t_min + i), load<F>(segments.t_max + i));
+            save(hits.t + i, best.num / best.den);
+            save(hits.id + i, best.id);
+        }
+        return;
+    }
+    TreeHits<typename V::Real> found;
+    for (std::uint32_t first = 0; first < count; first += bunch_size) {
+        const std::uint32_t bunch = count - first < bunch_size ? count - first : bunch_size;
+        for (std::uint32_t i = 0; i < bunch; i += V::count) save(found.t + i, load<F>(segments.t_max + first + i));
+        closest_in_tree<V>(spheres, source_of(segments, first), bunch, found);
+        for (std::uint32_t i = 0; i < bunch; i += V::count) {
+            save(hits.t + first + i, load<F>(found.t + i));
+            save(hits.id + first + i, load<U>(found.id + i));
+        }
     }
 }
 
@@ -91,12 +100,22 @@ void is_occluded_columns(const SphereTable<typename V::Real>& spheres, const Seg
                          std::uint32_t count, typename V::Word* occluded) {
     using F = typename V::F;
     using U = typename V::U;
-    for (std::uint32_t i = 0; i < count; i += V::count) {
-        const auto blocked = any_hit<V>(
-            spheres, AllSpheres{spheres.count}, load3<V>(segments.ox + i, segments.oy + i, segments.oz + i),
-            load3<V>(segments.dx + i, segments.dy + i, segments.dz + i), U(no_sphere), load<F>(segments.t_min + i),
-            F(1) / load<F>(segments.t_max + i), no_sphere, first_lanes<V>(count - i));
-        save(occluded + i, choose(blocked, U(1u), U(0u)));
+    if (spheres.tree.count == 0) {
+        for (std::uint32_t i = 0; i < count; i += V::count) {
+            const auto blocked = any_hit<V>(
+                spheres, AllSpheres{spheres.count}, load3<V>(segments.ox + i, segments.oy + i, segments.oz + i),
+                load3<V>(segments.dx + i, segments.dy + i, segments.dz + i), U(no_sphere), load<F>(segments.t_min + i),
+                F(1) / load<F>(segments.t_max + i), no_sphere, first_lanes<V>(count - i));
+            save(occluded + i, choose(blocked, U(1u), U(0u)));
+        }
+        return;
+    }
+    alignas(64) typename V::Real inverse_t_max[bunch_size];
+    for (std::uint32_t first = 0; first < count; first += bunch_size) {
+        const std::uint32_t bunch = count - first < bunch_size ? count - first : bunch_size;
+        for (std::uint32_t i = 0; i < bunch; i += V::count)
+            save(inverse_t_max + i, F(1) / load<F>(segments.t_max + first + i));
+        occluded_in_tree<V>(spheres, source_of(segments, first), inverse_t_max, bunch, no_sphere, occluded + first);
     }
 }
 

@@ -4,7 +4,7 @@
 // in a vector; sorting indices and gathering the records later costs a gather per field, five times that.
 #pragma once
 
-#include "kernels/compress.hpp"
+#include "kernels/lanes/compress.hpp"
 #include "kernels/queues.hpp"
 
 namespace orrery::kernels {

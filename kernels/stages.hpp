@@ -1,14 +1,48 @@
 // The stages as a table of function pointers, one table per instruction set, chosen once at start-up.
 //
-// Every pointer does what the template of the same name documents (generate.hpp, intersect.hpp, ...).
+// Every pointer does what the template of the same name documents (generate.hpp, loop.hpp, ...).
 #pragma once
 
-#include "kernels/connect.hpp"
 #include "kernels/isa.hpp"
-#include "kernels/scatter.hpp"
-#include "kernels/segment.hpp"
+#include "kernels/queues.hpp"
 
 namespace orrery::kernels {
+
+/// What all scattering kernels of a plan share.
+template <class Real>
+struct ScatterContext {
+    SphereTable<Real> spheres;
+    MaterialTable<Real> materials;
+    SlotTable<Real> slots;
+    std::uint32_t seed = 0;
+    std::uint32_t bounce = 0;
+    /// Whether emission found by scattering competes with light samples at every non-delta vertex (mis) or is not
+    /// counted behind diffuse ones (nee). Read only where RayQueue::pdf is present.
+    bool competing_pdf = false;
+};
+
+/// What direct lighting knows.
+template <class Real>
+struct ConnectContext {
+    SphereTable<Real> spheres;
+    MaterialTable<Real> materials;
+    LightTable<Real> lights;
+    SlotTable<Real> slots;
+    std::uint32_t seed = 0;
+    std::uint32_t bounce = 0;
+    LightStrategy strategy = LightStrategy::area;
+    /// Whether the light sample competes with scattering that may find the light as well (mis).
+    bool competing = false;
+};
+
+/// In place of a light's number: every vertex chooses its own.
+inline constexpr std::uint32_t chosen_light = 0xFFFFFFFFu;
+
+/// Segments as columns, capacity a multiple of `widest`.
+template <class Real>
+struct SegmentColumns {
+    const Real *ox, *oy, *oz, *dx, *dy, *dz, *t_min, *t_max;
+};
 
 template <class Real>
 struct Stages {

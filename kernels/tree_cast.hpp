@@ -1,12 +1,10 @@
-// Closest hit and occlusion through the tree, a bunch of rays at a time: the maths of sphere.hpp, one root at a time.
-//
-// The closest hit is the least (t, id) over all spheres the ray meets, which no order of visits can change.
+// Stages `intersect` and `shadow` through the tree, a packet of rays at a time: the maths of sphere.hpp, one root at a
+// time. The closest hit is the least (t, id) over all spheres the ray meets, which no order of visits can change.
 #pragma once
 
 #include <limits>
 
-#include "kernels/intersect.hpp"
-#include "kernels/tree_traverse.hpp"
+#include "kernels/tree_packets.hpp"
 
 namespace orrery::kernels {
 
@@ -41,22 +39,6 @@ ORRERY_INLINE Root<ScalarLanes<Real>> first_root(const TreeSource<Real>& source,
 template <class F>
 ORRERY_INLINE F tree_limit(const F& t) {
     return t * F(static_cast<float>(limit_margin));
-}
-
-/// Where rays that leave sphere `left` inward meet it again; elsewhere t_max.
-template <class V>
-ORRERY_INLINE void put_inner_roots(const SphereTable<typename V::Real>& spheres, const Vec3<typename V::F>& o,
-                                   const Vec3<typename V::F>& d, const typename V::U& left, typename V::F& t,
-                                   typename V::U& id) {
-    using F = typename V::F;
-    using U = typename V::U;
-    const U left_id = left & U(no_sphere);
-    const auto inward = !words_equal(left, left_id);
-    if (!any(inward)) return;
-    const F inner = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
-    const auto closer = inward && inner < t;
-    t = choose(closer, inner, t);
-    id = choose(closer, left, id);
 }
 
 /// Closest hits of `count` <= capacity rays with t_min < t < t_max, as intersect.hpp's closest_hit has them.
@@ -119,11 +101,8 @@ ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres
         if (source.left != nullptr) {
             const U left = choose(first_lanes<V>(count - i), load<U>(source.left + i), U(no_sphere));
             left_id = left & U(no_sphere);
-            const auto inward = !words_equal(left, left_id) && !words_equal(left_id, U(targets_at<V>(target, i)));
-            if (any(inward)) {
-                const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
-                blocked = choose(inward && t * inverse < F(1), U(1u), blocked);
-            }
+            const auto met = inner_root_before<V>(spheres, o, d, left, targets_at<V>(target, i), inverse);
+            blocked = choose(met, U(1u), blocked);
         }
         put_tree_rays<V>(rays, i, o, d, left_id, spheres.tree.extent,
                          choose(words_equal(blocked, U(1u)), F(-1), tree_limit(F(1) / inverse)));
@@ -142,6 +121,69 @@ ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres
                     occluded[ray] = 1;
                     rays.limit[ray] = -1;
                 });
+}
+
+template <class V>
+void intersect_tree(const SphereTable<typename V::Real>& spheres, const RayQueue<typename V::Real>& rays,
+                    std::uint32_t count, const HitQueue<typename V::Real>& hits) {
+    using Real = typename V::Real;
+    using F = typename V::F;
+    using U = typename V::U;
+    TreeHits<Real> found;
+    for (std::uint32_t first = 0; first < count; first += bunch_size) {
+        const std::uint32_t bunch = count - first < bunch_size ? count - first : bunch_size;
+        SphereList<Real> list;
+        if (collect<V>(spheres, span_of(rays, first, bunch), list)) {
+            intersect_list<V>(spheres, list, rays, first, first + bunch, hits);
+            continue;
+        }
+        for (std::uint32_t i = 0; i < bunch_size; ++i) found.t[i] = std::numeric_limits<Real>::infinity();
+        closest_in_tree<V>(spheres,
+                           {rays.ox + first, rays.oy + first, rays.oz + first, rays.dx + first, rays.dy + first,
+                            rays.dz + first, rays.left + first, nullptr},
+                           bunch, found);
+        for (std::uint32_t i = 0; i < bunch; i += V::count) {
+            save(hits.t + first + i, load<F>(found.t + i));
+            save(hits.id + first + i, load<U>(found.id + i));
+        }
+    }
+}
+
+/// `target` as in targets_at.
+template <class V, class Target>
+ORRERY_INLINE void shadow_in_tree(const SphereTable<typename V::Real>& spheres,
+                                  const ShadowQueue<typename V::Real>& queue, std::uint32_t count, const Target& target,
+                                  const SlotTable<typename V::Real>& slots) {
+    using Word = typename V::Word;
+    using U = typename V::U;
+    alignas(64) Word occluded[bunch_size];
+    for (std::uint32_t first = 0; first < count; first += bunch_size) {
+        const std::uint32_t bunch = count - first < bunch_size ? count - first : bunch_size;
+        SphereList<typename V::Real> list;
+        if (collect<V>(spheres, span_of(queue, first, bunch), list)) {
+            shadow_among<V>(spheres, list, queue, first, first + bunch, target, slots);
+            continue;
+        }
+        occluded_in_tree<V>(spheres,
+                            {queue.ox + first, queue.oy + first, queue.oz + first, queue.dx + first, queue.dy + first,
+                             queue.dz + first, queue.left + first, nullptr},
+                            queue.inverse_t_max + first, bunch, targets_behind(target, first), occluded);
+        for (std::uint32_t i = 0; i < bunch; i += V::count) {
+            const auto live = first_lanes<V>(bunch - i);
+            const auto lit = live && words_equal(load<U>(occluded + i), U(0u));
+            const std::uint32_t at = first + i;
+            if (any(lit))
+                add_radiance<V>(slots, load<U>(queue.slot + at), load3<V>(queue.r + at, queue.g + at, queue.b + at),
+                                lit);
+        }
+    }
+}
+
+template <class V>
+void shadow_tree(const SphereTable<typename V::Real>& spheres, const ShadowQueue<typename V::Real>& queue,
+                 std::uint32_t count, std::uint32_t target, const SlotTable<typename V::Real>& slots) {
+    with_target(queue, target,
+                [&](const auto& ends) ORRERY_INLINE_LAMBDA { shadow_in_tree<V>(spheres, queue, count, ends, slots); });
 }
 
 }  // namespace orrery::kernels

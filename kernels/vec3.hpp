@@ -1,7 +1,7 @@
 // Three numbers that belong together; x, y, z may be scalars or vectors of lanes.
 #pragma once
 
-#include "kernels/lanes.hpp"
+#include "kernels/lanes/numbers.hpp"
 
 namespace orrery::kernels {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "kernels/tree.hpp"
+#include "kernels/tables.hpp"
 
 namespace orrery {
 

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "kernels/lanes/words.hpp"
+
 namespace orrery {
 
 namespace {

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "cases.hpp"
-#include "kernels/fresnel.hpp"
+#include "kernels/lobes.hpp"
 #include "kernels/vertex.hpp"
 #include "spheres.hpp"
 #include "trials.hpp"

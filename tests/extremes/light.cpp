@@ -150,20 +150,17 @@ void light_a_plane(Errors& errors, Dice& dice) {
     const double up = dice.coin() ? dice.integer(-4, 4) * rounding_unit<Real> : dice.between(-1, 1);
     const Double3 to = kernels::unit(n * up + dice.across(n) * std::sqrt(1 - up * up)) * d;
     const auto normal = unit_length<Real>(n);
-    const kernels::PointLight<Real> light{
-        static_cast<Real>(to.x), static_cast<Real>(to.y), static_cast<Real>(to.z), 1, 1, 1};
-    const kernels::ConnectContext<Real> context{};
-    const kernels::LobeQueue<Real> lobes{};
-    const kernels::PointSampler<V, kernels::Response::diffuse> sampler{context, light, lobes};
+    const kernels::Vec3<Real> light{static_cast<Real>(to.x), static_cast<Real>(to.y), static_cast<Real>(to.z)};
     kernels::LitVertex<V> vertex{};
-    vertex.position = {F(0), F(0), F(0)};
     vertex.normal = broadcast<V>(normal);
-    const auto arrival = sampler({}, vertex);
-    const Wide3 exact{static_cast<Wide>(light.px), static_cast<Wide>(light.py), static_cast<Wide>(light.pz)};
+    const auto sample = kernels::sample_point<V>({F(0), F(0), F(0)}, broadcast<V>(light));
+    const F pdf = kernels::response_pdf<V, kernels::Response::diffuse>({}, {}, vertex, sample.direction);
+    const F arrives = pdf * sample.inverse_distance * sample.inverse_distance;
+    const Wide3 exact = widen(light);
     const Wide distance = length(exact), pi = static_cast<Wide>(std::numbers::pi_v<long double>);
     const Wide whole = 1 / (pi * distance * distance);
     const Wide wanted = std::max(Wide(0), dot(widen(normal), exact) / distance) * whole;
-    const Wide factor = std::max(Wide(0), static_cast<Wide>(first_lane(arrival.factor)));
+    const Wide factor = std::max(Wide(0), static_cast<Wide>(first_lane(arrives)));
     errors.add(static_cast<double>(magnitude(factor - wanted) / (whole * static_cast<Wide>(rounding_unit<Real>))));
 }
 

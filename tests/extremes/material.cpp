@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include "backward_error.hpp"
-#include "kernels/fresnel.hpp"
-#include "kernels/glossy.hpp"
+#include "kernels/lobes.hpp"
 #include "trials.hpp"
 
 namespace orrery::extremes {

@@ -2,7 +2,7 @@
 // shows it), so scalar code stands for them; SSE2, without fused multiply-add, is a kind of its own.
 #pragma once
 
-#include "kernels/intersect.hpp"
+#include "kernels/loop.hpp"
 
 namespace orrery::extremes {
 

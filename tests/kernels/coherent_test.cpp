@@ -1,8 +1,8 @@
 // The stages for coherent rays: the loop's bytes, from fewer spheres.
 #include "geometry.hpp"
 #include "kernel_test.hpp"
-#include "kernels/candidates.hpp"
-#include "kernels/tree_coherent.hpp"
+#include "kernels/packets.hpp"
+#include "kernels/tree_packets.hpp"
 #include "numbers.hpp"
 #include "owned.hpp"
 #include "planted.hpp"

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "kernel_test.hpp"
+#include "kernels/random.hpp"
 #include "light_reference.hpp"
 #include "lit_vertices.hpp"
 #include "optics_reference.hpp"

@@ -1,5 +1,5 @@
 // Fresnel's reflectance and Snell's direction: the maths body every instruction set shares, against angles in double.
-#include "kernels/fresnel.hpp"
+#include "kernels/lobes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The glossy lobe's sampler and value as functions: they agree with the specification's formula, with each other, and
 // with a total of one. What the stages draw is in scatter_sampling_test.cpp.
-#include "kernels/glossy.hpp"
+#include "kernels/lobes.hpp"
 
 #include <gtest/gtest.h>
 

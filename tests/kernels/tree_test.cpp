@@ -1,6 +1,7 @@
 // The tree against the textbook and against every sphere in turn: nothing lost, nothing invented, nothing that depends
 // on the company a ray is in.
 #include "intersect_fixture.hpp"
+#include "kernels/segment.hpp"
 #include "planted.hpp"
 #include "tree_worlds.hpp"
 

@@ -2,7 +2,7 @@
 // Everything is a member of a template on V, so that the linker can share nothing between instruction sets.
 #pragma once
 
-#include "kernels/compress.hpp"
+#include "kernels/lanes/compress.hpp"
 #include "kernels/sampling.hpp"
 #include "probe/lane_probe.hpp"
 

@@ -1,7 +1,8 @@
-// Three columns of lanes added to rows in memory: radiance to the slots it belongs to.
+// Radiance to the slots it belongs to: three columns of lanes added to rows in memory.
 #pragma once
 
-#include "kernels/twin_lanes.hpp"
+#include "kernels/lanes/twin.hpp"
+#include "kernels/queues.hpp"
 #include "kernels/vec3.hpp"
 
 namespace orrery::kernels {
@@ -85,6 +86,16 @@ ORRERY_INLINE void add_to_rows(typename V::Real* rows, const typename V::U& row,
             (Row::load_aligned(sum) + Row::load_aligned(term)).store_aligned(sum);
         }
     }
+}
+
+/// Adds the chosen lanes to their slots.
+template <class V>
+ORRERY_INLINE void add_radiance(const SlotTable<typename V::Real>& slots, const typename V::U& slot,
+                                const Vec3<typename V::F>& radiance, const typename V::M& chosen) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const Vec3<F> none{F(0), F(0), F(0)};
+    add_to_rows<V>(slots.radiance, choose(chosen, slot, U(0u)), choose(chosen, radiance, none));
 }
 
 }  // namespace orrery::kernels

@@ -1,10 +1,11 @@
-// Stage `intersect`: rays -> closest hits. Lanes are rays; the spheres pass by one at a time.
+// Stages `intersect` and `shadow` by a loop over spheres: rays -> closest hits, and what the shadow queue carries
+// arrives where nothing blocks it. Lanes are rays; the spheres pass by one at a time.
 #pragma once
 
 #include <limits>
 
-#include "kernels/candidates.hpp"
-#include "kernels/queues.hpp"
+#include "kernels/packets.hpp"
+#include "kernels/radiance.hpp"
 #include "kernels/sphere.hpp"
 
 namespace orrery::kernels {
@@ -26,6 +27,35 @@ ORRERY_INLINE void keep_closer(Closest<V>& best, const typename V::F& num, const
     best.id = choose(closer, id, best.id);
 }
 
+/// What a ray leaves inward it meets again, at the far root and nowhere else: there, if that is before t.
+template <class V>
+ORRERY_INLINE void put_inner_roots(const SphereTable<typename V::Real>& spheres, const Vec3<typename V::F>& o,
+                                   const Vec3<typename V::F>& d, const typename V::U& left, typename V::F& t,
+                                   typename V::U& id) {
+    using U = typename V::U;
+    const U left_id = left & U(no_sphere);
+    const auto inward = !words_equal(left, left_id);
+    if (!any(inward)) return;
+    const auto inner = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
+    const auto closer = inward && inner < t;
+    t = choose(closer, inner, t);
+    id = choose(closer, left, id);
+}
+/// Lanes that meet what they leave before 1 / inverse_t_max, unless it is `target`.
+template <class V, class Target>
+ORRERY_INLINE typename V::M inner_root_before(const SphereTable<typename V::Real>& spheres,
+                                              const Vec3<typename V::F>& o, const Vec3<typename V::F>& d,
+                                              const typename V::U& left, const Target& target,
+                                              const typename V::F& inverse_t_max) {
+    using F = typename V::F;
+    using U = typename V::U;
+    const U left_id = left & U(no_sphere);
+    const auto inward = !words_equal(left, left_id) && !words_equal(left_id, U(target));
+    if (!any(inward)) return no_lane<V>();
+    const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
+    return inward && t * inverse_t_max < F(1);
+}
+
 /// Closest hit with t_min < t < t_max, t_max >= 0. `left` is the sphere each ray leaves (inside_bit: inward), no_sphere
 /// for none; it is meaningful only for segments that begin on it, so Start is FromOrigin wherever left names a sphere.
 template <class V, class Among, class Start>
@@ -37,15 +67,8 @@ ORRERY_INLINE Closest<V> closest_hit(const SphereTable<typename V::Real>& sphere
     const F zero(0);
     Closest<V> best{t_max, F(1), U(no_sphere)};
 
-    // What a ray leaves inward it meets again, at the far root and nowhere else.
+    put_inner_roots<V>(spheres, o, d, left, best.num, best.id);
     const U left_id = left & U(no_sphere);
-    const auto inward = !words_equal(left, left_id);
-    if (any(inward)) {
-        const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
-        const auto closer = inward && t < best.num;
-        best.num = choose(closer, t, best.num);
-        best.id = choose(closer, left, best.id);
-    }
     among.each([&](std::uint32_t k) ORRERY_INLINE_LAMBDA {
         const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
         const F s = root(line.disc);
@@ -100,12 +123,7 @@ ORRERY_INLINE typename V::M any_hit(const SphereTable<typename V::Real>& spheres
     constexpr bool from_origin = std::is_same_v<Start, FromOrigin>;
     const F zero(0);
     const U left_id = left & U(no_sphere);
-    auto blocked = !live;
-    const auto inward = live && !words_equal(left, left_id) && !words_equal(left_id, U(target));
-    if (any(inward)) {
-        const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, left_id, U(0u))));
-        blocked = blocked || (inward && t * inverse_t_max < F(1));
-    }
+    auto blocked = !live || inner_root_before<V>(spheres, o, d, left, target, inverse_t_max);
     among.each([&](std::uint32_t k) ORRERY_INLINE_LAMBDA {
         if constexpr (one_target) {
             if (k == target) return false;
@@ -161,6 +179,55 @@ void intersect_coherent(const SphereTable<typename V::Real>& spheres, const RayQ
         const std::uint32_t end = count - begin < bunch_size ? count : begin + bunch_size;
         intersect_among<V>(spheres, candidates<V>(spheres, span_of(rays, begin, end - begin)), rays, begin, end, hits);
     }
+}
+
+template <class V, class Among, class Target>
+ORRERY_INLINE void shadow_among(const SphereTable<typename V::Real>& spheres, const Among& among,
+                                const ShadowQueue<typename V::Real>& queue, std::uint32_t begin, std::uint32_t end,
+                                const Target& target, const SlotTable<typename V::Real>& slots) {
+    using F = typename V::F;
+    using U = typename V::U;
+    for (std::uint32_t i = begin; i < end; i += V::count) {
+        const auto live = first_lanes<V>(end - i);
+        const auto o = load3<V>(queue.ox + i, queue.oy + i, queue.oz + i);
+        const auto d = load3<V>(queue.dx + i, queue.dy + i, queue.dz + i);
+        const U left = choose(live, load<U>(queue.left + i), U(no_sphere));
+        const auto blocked = any_hit<V>(spheres, among, o, d, left, FromOrigin{}, load<F>(queue.inverse_t_max + i),
+                                        targets_at<V>(target, i), live);
+        const auto lit = live && !blocked;
+        if (!any(lit)) continue;
+        add_radiance<V>(slots, load<U>(queue.slot + i), load3<V>(queue.r + i, queue.g + i, queue.b + i), lit);
+    }
+}
+
+/// Calls run(target) with what the queue's segments end on: its column, or `target` for all of them.
+template <class Real, class Run>
+ORRERY_INLINE void with_target(const ShadowQueue<Real>& queue, std::uint32_t target, const Run& run) {
+    if (queue.target != nullptr) return run(static_cast<const WordOf<Real>*>(queue.target));
+    run(target);
+}
+
+/// Where the queue has no column for it, `target` is the light's own sphere, which bounds the segments and cannot block
+/// them; no_sphere for a point light.
+template <class V>
+void shadow(const SphereTable<typename V::Real>& spheres, const ShadowQueue<typename V::Real>& queue,
+            std::uint32_t count, std::uint32_t target, const SlotTable<typename V::Real>& slots) {
+    with_target(queue, target, [&](const auto& ends) ORRERY_INLINE_LAMBDA {
+        shadow_among<V>(spheres, AllSpheres{spheres.count}, queue, 0, count, ends, slots);
+    });
+}
+
+/// The same, as intersect_coherent.
+template <class V>
+void shadow_coherent(const SphereTable<typename V::Real>& spheres, const ShadowQueue<typename V::Real>& queue,
+                     std::uint32_t count, std::uint32_t target, const SlotTable<typename V::Real>& slots) {
+    with_target(queue, target, [&](const auto& ends) ORRERY_INLINE_LAMBDA {
+        for (std::uint32_t begin = 0; begin < count; begin += bunch_size) {
+            const std::uint32_t end = count - begin < bunch_size ? count : begin + bunch_size;
+            const SomeSpheres among = candidates<V>(spheres, span_of(queue, begin, end - begin));
+            shadow_among<V>(spheres, among, queue, begin, end, ends, slots);
+        }
+    });
 }
 
 }  // namespace orrery::kernels

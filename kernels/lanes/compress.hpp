@@ -7,7 +7,7 @@
 #include <array>
 #include <bit>
 
-#include "kernels/lanes.hpp"
+#include "kernels/lanes/numbers.hpp"
 
 namespace orrery::kernels {
 

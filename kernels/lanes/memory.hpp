@@ -1,7 +1,7 @@
 // Vectors from and to memory, over xsimd's batches and over plain scalars alike.
 #pragma once
 
-#include "kernels/lane_types.hpp"
+#include "kernels/lanes/types.hpp"
 
 namespace orrery::kernels {
 

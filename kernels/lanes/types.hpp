@@ -4,17 +4,11 @@
 // the same width, and of truth values. With `ScalarLanes` the same source is ordinary scalar code.
 #pragma once
 
-#include <cstdint>
-#include <type_traits>
 #include <xsimd/xsimd.hpp>
 
-#include "kernels/always_inline.hpp"
+#include "kernels/common.hpp"
 
 namespace orrery::kernels {
-
-/// The storage word as wide as a number: ids, slots and random bits live in these.
-template <class Real>
-using WordOf = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
 
 template <class ArchT, class RealT>
 struct SimdLanes {
@@ -36,5 +30,15 @@ struct ScalarLanes {
     using M = bool;
     static constexpr std::uint32_t count = 1;
 };
+
+// What kernels say for short.
+template <class V>
+using RealOf = typename V::Real;
+template <class V>
+using Floats = typename V::F;
+template <class V>
+using Words = typename V::U;
+template <class V>
+using Mask = typename V::M;
 
 }  // namespace orrery::kernels

@@ -5,8 +5,8 @@
 // nodes, the rays go down one by one as they would have (tree_cast.hpp), to the same hits.
 #pragma once
 
-#include "kernels/candidates.hpp"
-#include "kernels/tree_cast.hpp"
+#include "kernels/loop.hpp"
+#include "kernels/tree_traverse.hpp"
 
 namespace orrery::kernels {
 

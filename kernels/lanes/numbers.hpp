@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-#include "kernels/lane_memory.hpp"
-#include "kernels/lane_words.hpp"
+#include "kernels/lanes/memory.hpp"
+#include "kernels/lanes/words.hpp"
 
 namespace orrery::kernels {
 
