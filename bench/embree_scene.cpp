@@ -36,11 +36,11 @@ constexpr double own_margin = 3e-5;
 template <class Queue>
 PeerRay peer_ray(const kernels::SphereTable<float>& spheres, const Queue& rays, std::size_t i) {
     PeerRay ray{rays.ox[i], rays.oy[i], rays.oz[i], 0, rays.dx[i], rays.dy[i], rays.dz[i], INFINITY};
-    const std::uint32_t left = rays.left[i] & kernels::no_sphere;
+    const std::uint32_t left = rays.departed[i] & kernels::no_sphere;
     if (left == kernels::no_sphere) return ray;
     const Roots own = roots(spheres, left, rays, i);
     // Inward the far root is a hit to be found; outward it is the rounding of the origin, and none.
-    const bool inward = (rays.left[i] & kernels::inside_bit) != 0;
+    const bool inward = (rays.departed[i] & kernels::inside_bit) != 0;
     const double far = own.far > 0 ? own.far : 0;
     ray.tnear = static_cast<float>(inward ? far / 2 : far * 1.01 + own_margin * spheres.radius[left]);
     return ray;

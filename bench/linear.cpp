@@ -29,7 +29,7 @@ void run_linear(benchmark::State& state, World& world, std::uint32_t bounce) {
     for (const StageCall* call : calls) {
         pieces.push_back({[call, &space] { call->before.restore(space.work); },
                           [call, &space, &stages, &spheres] {
-                              // The plain loop: what was recorded may leave spheres out (candidates.hpp).
+                              // The plain loop: what was recorded may leave spheres out (packets.hpp).
                               stages.intersect(spheres, space.work.rays, call->rays, space.work.hits);
                           }});
         pieces.push_back({[] {}, independent_512});

@@ -1,8 +1,8 @@
 // Stage `shade`, last step: direct lighting. The vertices of a run, all towards one light or each towards the one its
 // random number chooses -> shadow queue.
 //
-// Runs after `scatter`: a ray's origin is the vertex, `left` its sphere and side, and its throughput already holds the
-// surface's weight, so that what is missing is density of scattering over density of light sampling.
+// Runs after `scatter`: a ray's origin is the vertex, `departed` its sphere and side, and its throughput already holds
+// the surface's weight, so that what is missing is density of scattering over density of light sampling.
 #pragma once
 
 #include "kernels/lanes/compress.hpp"
@@ -17,22 +17,21 @@ namespace orrery::kernels {
 template <class V>
 struct LitVertex {
     std::uint32_t i;  ///< place in the ray queue
-    Vec3<typename V::F> position;
-    Vec3<typename V::F> normal;  ///< unit length, on the side the vertex scatters into
-    typename V::U sphere;        ///< id without side
-    typename V::M inward;        ///< it scatters into the sphere
+    Vec3Of<V> position;
+    Vec3Of<V> normal;  ///< unit length, on the side the vertex scatters into
+    Words<V> sphere;   ///< id without side
+    Mask<V> inward;    ///< it scatters into the sphere
 };
 
 /// Scattering density per solid angle towards `direction`; the cosine is part of it. 0 below the horizon.
 template <class V, Response response>
-ORRERY_INLINE typename V::F response_pdf(const ConnectContext<typename V::Real>& context,
-                                         const LobeQueue<typename V::Real>& lobes, const LitVertex<V>& vertex,
-                                         const Vec3<typename V::F>& direction) {
-    using F = typename V::F;
-    using U = typename V::U;
+ORRERY_INLINE Floats<V> response_pdf(const ConnectContext<RealOf<V>>& context, const Lobes<V>& lobes,
+                                     const LitVertex<V>& vertex, const Vec3Of<V>& direction) {
+    using F = Floats<V>;
+    using U = Words<V>;
     const F cosine = dot(vertex.normal, direction);
     if constexpr (response == Response::diffuse) {
-        return max(cosine, F(0)) * F(static_cast<typename V::Real>(std::numbers::inv_pi));
+        return max(cosine, F(0)) * F(static_cast<RealOf<V>>(std::numbers::inv_pi));
     } else {
         const U material =
             lookup<U>(context.spheres.surface, vertex.sphere, context.spheres.count) & U(surface_material_mask);
@@ -45,10 +44,10 @@ ORRERY_INLINE typename V::F response_pdf(const ConnectContext<typename V::Real>&
 
 /// Appends the shadow rays of one vector of vertices whose lanes `chosen` are set.
 template <class V>
-ORRERY_INLINE std::uint32_t append_shadow(const ShadowQueue<typename V::Real>& queue, std::uint32_t size,
-                                          const Vec3<typename V::F>& origin, const Vec3<typename V::F>& direction,
-                                          const typename V::F& inverse_t_max, const Vec3<typename V::F>& radiance,
-                                          const typename V::U& left, const typename V::U& slot, std::uint32_t chosen) {
+ORRERY_INLINE std::uint32_t append_shadow(const Shadows<V>& queue, std::uint32_t size, const Vec3Of<V>& origin,
+                                          const Vec3Of<V>& direction, const Floats<V>& inverse_t_max,
+                                          const Vec3Of<V>& radiance, const Words<V>& departed, const Words<V>& slot,
+                                          std::uint32_t chosen) {
     compress_store<V>(queue.ox + size, origin.x, chosen);
     compress_store<V>(queue.oy + size, origin.y, chosen);
     compress_store<V>(queue.oz + size, origin.z, chosen);
@@ -59,7 +58,7 @@ ORRERY_INLINE std::uint32_t append_shadow(const ShadowQueue<typename V::Real>& q
     compress_store<V>(queue.r + size, radiance.x, chosen);
     compress_store<V>(queue.g + size, radiance.y, chosen);
     compress_store<V>(queue.b + size, radiance.z, chosen);
-    compress_store<V>(queue.left + size, left, chosen);
+    compress_store<V>(queue.departed + size, departed, chosen);
     compress_store<V>(queue.slot + size, slot, chosen);
     return size + static_cast<std::uint32_t>(std::popcount(chosen));
 }
@@ -67,11 +66,10 @@ ORRERY_INLINE std::uint32_t append_shadow(const ShadowQueue<typename V::Real>& q
 /// The light that the numbers z and w in [0, 1) choose. Exact: the cell is the top bits of z, and w is compared with a
 /// multiple of its last place.
 template <class V>
-ORRERY_INLINE typename V::U choose_light(const LightTable<typename V::Real>& lights, const typename V::F& z,
-                                         const typename V::F& w) {
-    using F = typename V::F;
-    using U = typename V::U;
-    const U cell = truncate_to_word(z * F(static_cast<typename V::Real>(lights.cells)));
+ORRERY_INLINE Words<V> choose_light(const Lights<V>& lights, const Floats<V>& z, const Floats<V>& w) {
+    using F = Floats<V>;
+    using U = Words<V>;
+    const U cell = truncate_to_word(z * F(static_cast<RealOf<V>>(lights.cells)));
     const auto own = w < lookup<F>(lights.share, cell, lights.cells);
     return choose(own, cell, lookup<U>(lights.other, cell, lights.cells));
 }
@@ -80,10 +78,9 @@ ORRERY_INLINE typename V::U choose_light(const LightTable<typename V::Real>& lig
 /// its own outer side nothing of it is seen. (By reference: what is returned g++ 12 moves through memory, a sixth of
 /// all instructions of connect_area on AVX2.)
 template <class V>
-ORRERY_INLINE void sample_sphere(LightStrategy strategy, const LitVertex<V>& vertex,
-                                 const Sphere<typename V::F>& sphere, const typename V::U& id,
-                                 const RandomNumbers<typename V::F>& random, LightSample<V>& sample) {
-    using F = typename V::F;
+ORRERY_INLINE void sample_sphere(LightStrategy strategy, const LitVertex<V>& vertex, const Sphere<Floats<V>>& sphere,
+                                 const Words<V>& id, const RandomNumbers<Floats<V>>& random, LightSample<V>& sample) {
+    using F = Floats<V>;
     // On the light itself its side is known; elsewhere the power of the point tells, as it tells `first_root` where a
     // ray meets the light: from a point on its surface (0) only from within.
     const auto own = words_equal(vertex.sphere, id);
@@ -118,12 +115,10 @@ enum class Aim { point, sphere, chosen };
 /// light sampling, weighed against scattering by the balance heuristic where the two compete; of a point its inverse
 /// square.
 template <class V, Response response, Aim aim>
-ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<typename V::Real>& context, std::uint32_t light, Range run,
-                                        const RayQueue<typename V::Real>& rays,
-                                        const LobeQueue<typename V::Real>& lobes,
-                                        const ShadowQueue<typename V::Real>& queue) {
-    using F = typename V::F;
-    using U = typename V::U;
+ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<RealOf<V>>& context, std::uint32_t light, Range run,
+                                        const Rays<V>& rays, const Lobes<V>& lobes, const Shadows<V>& queue) {
+    using F = Floats<V>;
+    using U = Words<V>;
     const auto& spheres = context.spheres;
     const auto& lights = context.lights;
     constexpr int dimensions = aim == Aim::point ? 0 : aim == Aim::sphere ? 2 : 4;
@@ -133,10 +128,10 @@ ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<typename V::Real>& 
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
         const auto in_run = first_lanes<V>(run.count - n);
-        const U left = choose(in_run, load<U>(rays.left + i), U(0u));
+        const U departed = choose(in_run, load<U>(rays.departed + i), U(0u));
         const U slot = choose(in_run, load<U>(rays.slot + i), U(0u));
-        const U id = left & U(no_sphere);
-        const auto inward = !words_equal(left, id);
+        const U id = departed & U(no_sphere);
+        const auto inward = !words_equal(departed, id);
         const auto p = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
         const auto centre = lookup3<V>(spheres.cx, spheres.cy, spheres.cz, id, spheres.count);
         const Vec3<F> outward = (p - centre) * lookup<F>(spheres.inverse_radius, id, spheres.count);
@@ -189,16 +184,15 @@ ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<typename V::Real>& 
         }
         const Vec3<F> colour{of(lights.r), of(lights.g), of(lights.b)};
         size = append_shadow<V>(queue, size, p, sample.direction, sample.inverse_distance,
-                                throughput * (colour * ratio), left, slot, chosen);
+                                throughput * (colour * ratio), departed, slot, chosen);
     }
     return size;
 }
 
 /// Returns the number of shadow rays. `light` is a light's number, or chosen_light where the table has cells.
 template <class V, Response response>
-std::uint32_t connect(const ConnectContext<typename V::Real>& context, std::uint32_t light, Range run,
-                      const RayQueue<typename V::Real>& rays, const LobeQueue<typename V::Real>& lobes,
-                      const ShadowQueue<typename V::Real>& queue) {
+std::uint32_t connect(const ConnectContext<RealOf<V>>& context, std::uint32_t light, Range run, const Rays<V>& rays,
+                      const Lobes<V>& lobes, const Shadows<V>& queue) {
     if (light == chosen_light) return connect_run<V, response, Aim::chosen>(context, light, run, rays, lobes, queue);
     if (light < context.lights.points)
         return connect_run<V, response, Aim::point>(context, light, run, rays, lobes, queue);

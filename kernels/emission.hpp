@@ -12,21 +12,20 @@ namespace orrery::kernels {
 /// densities are 0 / 0, as that of a light met at t = 0 by a ray along its surface, the weight is 0; where pdf is no
 /// number, nor is the weight.
 template <class V>
-ORRERY_INLINE typename V::F scattering_weight(const typename V::F& pdf, const typename V::F& light_pdf) {
-    using F = typename V::F;
-    const auto whole = pdf > F(std::numeric_limits<typename V::Real>::max());
+ORRERY_INLINE Floats<V> scattering_weight(const Floats<V>& pdf, const Floats<V>& light_pdf) {
+    using F = Floats<V>;
+    const auto whole = pdf > F(std::numeric_limits<RealOf<V>>::max());
     const F share = F(1) / (F(1) + light_pdf / pdf);
     return choose(whole, F(1), max(share, pdf * F(0)));  // the second where the first is no number
 }
 
 /// `lights` are all that a vertex may sample, with their probabilities where it samples one of them.
 template <class V>
-void emission(const SphereTable<typename V::Real>& spheres, const LightTable<typename V::Real>& lights,
-              const Background<typename V::Real>& background, LightStrategy strategy,
-              const RayQueue<typename V::Real>& rays, const HitQueue<typename V::Real>& hits, std::uint32_t count,
-              const SlotTable<typename V::Real>& slots) {
-    using F = typename V::F;
-    using U = typename V::U;
+void emission(const Spheres<V>& spheres, const Lights<V>& lights, const Background<RealOf<V>>& background,
+              LightStrategy strategy, const Rays<V>& rays, const Hits<V>& hits, std::uint32_t count,
+              const Slots<V>& slots) {
+    using F = Floats<V>;
+    using U = Words<V>;
     const bool emitters = lights.count > lights.points;
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const auto live = first_lanes<V>(count - i);

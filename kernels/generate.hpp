@@ -9,10 +9,9 @@ namespace orrery::kernels {
 /// A thin lens of radius lens_radius: the pinhole ray's point on the plane in focus is kept, its origin moves over the
 /// lens. `at` is the pinhole ray's point on the image plane at distance 1.
 template <class V, bool has_lens>
-ORRERY_INLINE void camera_ray(const CameraTable<typename V::Real>& camera, const typename V::F& x,
-                              const typename V::F& y, const RandomNumbers<typename V::F>& random,
-                              Vec3<typename V::F>& origin, Vec3<typename V::F>& direction) {
-    using F = typename V::F;
+ORRERY_INLINE void camera_ray(const CameraTable<RealOf<V>>& camera, const Floats<V>& x, const Floats<V>& y,
+                              const RandomNumbers<Floats<V>>& random, Vec3Of<V>& origin, Vec3Of<V>& direction) {
+    using F = Floats<V>;
     const Vec3<F> right{F(camera.xx), F(camera.xy), F(camera.xz)};
     const Vec3<F> up{F(camera.yx), F(camera.yy), F(camera.yz)};
     origin = {F(camera.px), F(camera.py), F(camera.pz)};
@@ -23,23 +22,23 @@ ORRERY_INLINE void camera_ray(const CameraTable<typename V::Real>& camera, const
         const F ly = F(camera.lens_radius) * lens.sin;
         origin = along(along(origin, lx, right), ly, up);
         // (focus point - lens point) / focal distance
-        const F inverse(typename V::Real(1) / camera.focal_distance);
+        const F inverse(RealOf<V>(1) / camera.focal_distance);
         direction = along(along(direction, F(0) - lx * inverse, right), F(0) - ly * inverse, up);
     }
     direction = unit(direction);
 }
 
 template <class V, bool has_lens>
-void generate(const CameraTable<typename V::Real>& camera, const SlotTable<typename V::Real>& slots,
-              std::uint32_t count, std::uint32_t seed, const RayQueue<typename V::Real>& rays) {
-    using F = typename V::F;
-    using U = typename V::U;
-    using Word = typename V::Word;
+void generate(const CameraTable<RealOf<V>>& camera, const Slots<V>& slots, std::uint32_t count, std::uint32_t seed,
+              const Rays<V>& rays) {
+    using F = Floats<V>;
+    using U = Words<V>;
+    using Word = WordOf<RealOf<V>>;
     const RandomKey key{seed, Dimension::camera, 0};
     constexpr int dimensions = has_lens ? 4 : 2;
     const bool points = slots.points.x != nullptr;
     if (points) draw_points<V, dimensions>(slots, {slots.pixel, slots.sample, nullptr}, {0, count}, key, 0);
-    const U lane = truncate_to_word(load<F>(detail::iota_table<typename V::Real>));
+    const U lane = truncate_to_word(load<F>(detail::iota_table<RealOf<V>>));
     const F zero(0), one(1);
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const U pixel = load<U>(slots.pixel + i);
@@ -54,9 +53,9 @@ void generate(const CameraTable<typename V::Real>& camera, const SlotTable<typen
         save3<V>(rays.dx + i, rays.dy + i, rays.dz + i, d);
         save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, {one, one, one});
         // What the camera sees of a light competes with no light sample.
-        if (rays.pdf != nullptr) save(rays.pdf + i, F(std::numeric_limits<typename V::Real>::infinity()));
+        if (rays.pdf != nullptr) save(rays.pdf + i, F(std::numeric_limits<RealOf<V>>::infinity()));
         if (rays.eta_scale != nullptr) save(rays.eta_scale + i, one);
-        save(rays.left + i, U(Word{no_sphere}));
+        save(rays.departed + i, U(Word{no_sphere}));
         save(rays.slot + i, lane + U(Word{i}));
         save(rays.pixel + i, pixel);
         save(rays.sample + i, sample);

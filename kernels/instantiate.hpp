@@ -16,8 +16,8 @@ namespace orrery::kernels {
 /// V: one vector. W: what the stages with long chains of dependent operations work on. S: what loops over spheres do;
 /// two vectors of rays and their closest hits fit AVX-512's 32 registers, not AVX2's 16.
 template <class V, class W = TwinLanes<V>, class S = W>
-constexpr Stages<typename V::Real> make_stages(Isa isa) {
-    Stages<typename V::Real> s{};
+constexpr Stages<RealOf<V>> make_stages(Isa isa) {
+    Stages<RealOf<V>> s{};
     s.isa = isa;
     s.lanes = V::count;
     s.step = W::count;

@@ -8,15 +8,15 @@ namespace orrery::kernels {
 
 template <class V>
 struct LightSample {
-    Vec3<typename V::F> direction;   ///< unit length
-    typename V::F inverse_distance;  ///< 1 / distance to the sampled point of the light
-    typename V::F inverse_pdf;       ///< 1 / density per solid angle, > 0 where valid
-    typename V::M valid;
+    Vec3Of<V> direction;         ///< unit length
+    Floats<V> inverse_distance;  ///< 1 / distance to the sampled point of the light
+    Floats<V> inverse_pdf;       ///< 1 / density per solid angle, > 0 where valid
+    Mask<V> valid;
 };
 
 /// sample = other in the lanes of `where`.
 template <class V>
-ORRERY_INLINE void replace(LightSample<V>& sample, const typename V::M& where, const LightSample<V>& other) {
+ORRERY_INLINE void replace(LightSample<V>& sample, const Mask<V>& where, const LightSample<V>& other) {
     sample.direction = choose(where, other.direction, sample.direction);
     sample.inverse_distance = choose(where, other.inverse_distance, sample.inverse_distance);
     sample.inverse_pdf = choose(where, other.inverse_pdf, sample.inverse_pdf);
@@ -25,8 +25,8 @@ ORRERY_INLINE void replace(LightSample<V>& sample, const typename V::M& where, c
 
 /// The one direction there is. The inverse square of the distance takes the place of 1 / density.
 template <class V>
-ORRERY_INLINE LightSample<V> sample_point(const Vec3<typename V::F>& p, const Vec3<typename V::F>& light) {
-    using F = typename V::F;
+ORRERY_INLINE LightSample<V> sample_point(const Vec3Of<V>& p, const Vec3Of<V>& light) {
+    using F = Floats<V>;
     const Vec3<F> to = light - p;
     const F distance2 = dot(to, to);
     const F inverse_distance = F(1) / root(distance2);
@@ -35,17 +35,16 @@ ORRERY_INLINE LightSample<V> sample_point(const Vec3<typename V::F>& p, const Ve
 
 /// Uniform over the surface, p = 1/A. From outside only the half facing `p` is seen, from inside all of it.
 template <class V>
-ORRERY_INLINE LightSample<V> sample_light_area(const Vec3<typename V::F>& p, const Sphere<typename V::F>& light,
-                                               const typename V::M& inside, const typename V::F& u,
-                                               const typename V::F& v) {
-    using F = typename V::F;
+ORRERY_INLINE LightSample<V> sample_light_area(const Vec3Of<V>& p, const Sphere<Floats<V>>& light,
+                                               const Mask<V>& inside, const Floats<V>& u, const Floats<V>& v) {
+    using F = Floats<V>;
     const Vec3<F> n = sample_unit_sphere<V>(u, v);
     const Vec3<F> to = along(light.centre, light.radius, n) - p;
     const F inverse_distance = F(1) / root(dot(to, to));
     const Vec3<F> direction = to * inverse_distance;
     const F cosine = dot(n, direction);
     const F facing = choose(inside, cosine, F(0) - cosine);
-    const F area = F(static_cast<typename V::Real>(4 * std::numbers::pi)) * light.radius * light.radius;
+    const F area = F(static_cast<RealOf<V>>(4 * std::numbers::pi)) * light.radius * light.radius;
     return {direction, inverse_distance, area * facing * inverse_distance * inverse_distance, facing > F(0)};
 }
 
@@ -68,9 +67,9 @@ ORRERY_INLINE LightCone<F> light_cone(const Vec3<F>& f, const F& c, const F& rad
 
 /// Uniform over the subtended solid angle, p = 1 / (2 pi (1 - cos)). From outside only.
 template <class V>
-ORRERY_INLINE LightSample<V> sample_light_cone(const Vec3<typename V::F>& p, const Sphere<typename V::F>& light,
-                                               const typename V::F& u, const typename V::F& v) {
-    using F = typename V::F;
+ORRERY_INLINE LightSample<V> sample_light_cone(const Vec3Of<V>& p, const Sphere<Floats<V>>& light, const Floats<V>& u,
+                                               const Floats<V>& v) {
+    using F = Floats<V>;
     const Vec3<F> f = p - light.centre;
     const F c = power_of_point(f, light.radius2);
     const auto cone = light_cone(f, c, light.radius);
@@ -82,16 +81,15 @@ ORRERY_INLINE LightSample<V> sample_light_cone(const Vec3<typename V::F>& p, con
     const F s = root(max(neg_mul_add(cone.distance2, sin2, light.radius * light.radius), F(0)));
     const F d = cone.distance2 * cone.inverse_distance;
     return {direction, mul_add(d, cosine, s) / c,
-            F(static_cast<typename V::Real>(2 * std::numbers::pi)) * cone.one_minus_cosine, c > F(0)};
+            F(static_cast<RealOf<V>>(2 * std::numbers::pi)) * cone.one_minus_cosine, c > F(0)};
 }
 
 /// Density with which a direction that meets the light after t is sampled from `origin`: what multiple importance
 /// sampling compares. `inside`: the origin lies within the light.
 template <class V>
-ORRERY_INLINE typename V::F light_pdf(bool cone_sampling, const Vec3<typename V::F>& origin,
-                                      const Vec3<typename V::F>& direction, const typename V::F& t,
-                                      const Sphere<typename V::F>& light, const typename V::M& inside) {
-    using F = typename V::F;
+ORRERY_INLINE Floats<V> light_pdf(bool cone_sampling, const Vec3Of<V>& origin, const Vec3Of<V>& direction,
+                                  const Floats<V>& t, const Sphere<Floats<V>>& light, const Mask<V>& inside) {
+    using F = Floats<V>;
     using Real = typename V::Real;
     const auto line = chord(origin, direction, light);
     const F cosine = root(max(line.disc, F(0)));  // times the radius

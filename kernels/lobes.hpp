@@ -10,16 +10,16 @@ namespace orrery::kernels {
 
 template <class V>
 struct Interface {
-    typename V::F reflectance;  ///< F in [0, 1]; 1 where reflection is total
-    typename V::F cosine_t;     ///< of the transmitted ray with the normal, >= 0; 0 where reflection is total
-    typename V::F inverse_eta;  ///< incident index over transmitted index
+    Floats<V> reflectance;  ///< F in [0, 1]; 1 where reflection is total
+    Floats<V> cosine_t;     ///< of the transmitted ray with the normal, >= 0; 0 where reflection is total
+    Floats<V> inverse_eta;  ///< incident index over transmitted index
 };
 
 /// `cosine` in [0, 1] with the normal on the incident side; `eta` transmitted index over incident index, > 0.
 /// Source: Fresnel's equations in the amplitude form r_s, r_p (Born and Wolf, section 1.5.2).
 template <class V>
-ORRERY_INLINE Interface<V> interface_at(const typename V::F& cosine, const typename V::F& eta) {
-    using F = typename V::F;
+ORRERY_INLINE Interface<V> interface_at(const Floats<V>& cosine, const Floats<V>& eta) {
+    using F = Floats<V>;
     const F inverse_eta = F(1) / eta;
     // 1 - sin^2/eta^2 = ((eta^2 - 1) + cos^2)/eta^2: the sum keeps its digits for eta near 1; for the smallest eta,
     // whose light arrives next to the normal, eta^2 - sin^2 does.
@@ -40,9 +40,9 @@ ORRERY_INLINE Vec3<F> reflected(const Vec3<F>& d, const Vec3<F>& n, const F& cos
 
 /// Snell's law for an arriving d with cosine = -d.n.
 template <class V>
-ORRERY_INLINE Vec3<typename V::F> refracted(const Vec3<typename V::F>& d, const Vec3<typename V::F>& n,
-                                            const typename V::F& cosine, const Interface<V>& at) {
-    return unit(along(d * at.inverse_eta, mul_add(at.inverse_eta, cosine, typename V::F(0) - at.cosine_t), n));
+ORRERY_INLINE Vec3Of<V> refracted(const Vec3Of<V>& d, const Vec3Of<V>& n, const Floats<V>& cosine,
+                                  const Interface<V>& at) {
+    return unit(along(d * at.inverse_eta, mul_add(at.inverse_eta, cosine, Floats<V>(0) - at.cosine_t), n));
 }
 
 // --- the glossy lobe: unit(R + beta S), S uniform on the unit sphere, conditioned on the reflecting
@@ -67,10 +67,10 @@ struct GlossySample {
 /// sqrt(beta^2 - sin^2 theta) = beta |mu + beta| / length: the density of the sampled direction follows from mu without
 /// the cancellation that evaluating it from the direction has near the singular edge mu = -beta.
 template <class V>
-ORRERY_INLINE GlossySample<typename V::F> sample_glossy(const Vec3<typename V::F>& lobe, const Vec3<typename V::F>& n,
-                                                        const typename V::F& lobe_dot_n, const typename V::F& beta,
-                                                        const typename V::F& u, const typename V::F& v) {
-    using F = typename V::F;
+ORRERY_INLINE GlossySample<Floats<V>> sample_glossy(const Vec3Of<V>& lobe, const Vec3Of<V>& n,
+                                                    const Floats<V>& lobe_dot_n, const Floats<V>& beta,
+                                                    const Floats<V>& u, const Floats<V>& v) {
+    using F = Floats<V>;
     const F lowest = min(lobe_dot_n / beta, F(1));
     const F h = mul_add(u, F(1) + lowest, F(0) - lowest);
     const F across = root(max(neg_mul_add(h, h, F(1)), F(0)));
@@ -83,22 +83,21 @@ ORRERY_INLINE GlossySample<typename V::F> sample_glossy(const Vec3<typename V::F
     // At least 1 - beta^2: what rounding makes of it for roughnesses close to 1 shall not be negative.
     const F numerator = max(neg_mul_add(F(2), sin2, mul_add(beta, beta, F(1))), F(0));
     const F denominator =
-        F(static_cast<typename V::Real>(2 * std::numbers::pi)) * beta * beta * magnitude(mu + beta) * inverse_length;
+        F(static_cast<RealOf<V>>(2 * std::numbers::pi)) * beta * beta * magnitude(mu + beta) * inverse_length;
     return {sum * inverse_length, numerator / (denominator * glossy_side_probability(lobe_dot_n, beta))};
 }
 
 /// Density of `direction` (unit length), conditioned on the side of n; 0 on the other side and outside the lobe.
 template <class V>
-ORRERY_INLINE typename V::F glossy_pdf(const Vec3<typename V::F>& lobe, const typename V::F& lobe_dot_n,
-                                       const typename V::F& beta, const Vec3<typename V::F>& direction,
-                                       const typename V::F& direction_dot_n) {
-    using F = typename V::F;
+ORRERY_INLINE Floats<V> glossy_pdf(const Vec3Of<V>& lobe, const Floats<V>& lobe_dot_n, const Floats<V>& beta,
+                                   const Vec3Of<V>& direction, const Floats<V>& direction_dot_n) {
+    using F = Floats<V>;
     const Vec3<F> across = cross(lobe, direction);
     const F sin2 = dot(across, across);
     const F beta2 = beta * beta;
     const auto within = beta2 > sin2 && dot(lobe, direction) > F(0) && direction_dot_n > F(0);
     const F numerator = neg_mul_add(F(2), sin2, F(1) + beta2);
-    const F denominator = F(static_cast<typename V::Real>(2 * std::numbers::pi)) * beta * root(max(beta2 - sin2, F(0)));
+    const F denominator = F(static_cast<RealOf<V>>(2 * std::numbers::pi)) * beta * root(max(beta2 - sin2, F(0)));
     return choose(within, numerator / (denominator * glossy_side_probability(lobe_dot_n, beta)), F(0));
 }
 

@@ -1,4 +1,4 @@
-// Which spheres of a table a loop over spheres takes: all of them, or those that a bunch of coherent rays may meet.
+// Which spheres of a table a loop over spheres takes: all of them, or those that a packet of coherent rays may meet.
 //
 // Camera rays of neighbouring pixels, and the shadow rays from what they hit, fill a thin cone; most of a scene's
 // spheres are nowhere near it. A cone against sixteen spheres costs about as much as one sphere against sixteen rays.
@@ -62,7 +62,7 @@ ORRERY_INLINE auto span_of(const Queue& queue, std::uint32_t first, std::uint32_
 
 /// Every ray starts within `spread` of `origin` and runs along `axis`, give or take `deviation`, as far as `t_max`.
 template <class Real>
-struct Bunch {
+struct Packet {
     Vec3<Real> origin, axis;
     Real spread, deviation, t_max;
 };
@@ -86,10 +86,10 @@ ORRERY_INLINE bool may_be_coherent(const RaySpan<Real>& rays) {
 
 /// Bounds at least V::count rays.
 template <class V>
-ORRERY_INLINE Bunch<typename V::Real> bound(const RaySpan<typename V::Real>& rays) {
+ORRERY_INLINE Packet<RealOf<V>> bound(const RaySpan<RealOf<V>>& rays) {
     const auto& [column, inverse_t_max, count] = rays;
     using Real = typename V::Real;
-    using F = typename V::F;
+    using F = Floats<V>;
     F low[6], high[6];
     const F infinity(std::numeric_limits<Real>::infinity());
     for (int c = 0; c < 6; ++c) low[c] = infinity, high[c] = F(0) - infinity;
@@ -119,7 +119,7 @@ ORRERY_INLINE Bunch<typename V::Real> bound(const RaySpan<typename V::Real>& ray
             Real(1) / least(nearest)};
 }
 
-/// The cone of a bunch, ready for a vector of spheres at a time.
+/// The cone of a packet, ready for a vector of spheres at a time.
 ///
 /// Point t of a ray lies within spread + t deviation of origin + t axis. So a ray can only meet a sphere where, with
 /// f = C - origin and R = r + spread, |f - t axis| <= R + t deviation for some t in [0, t_max]. Squared that is a
@@ -128,21 +128,21 @@ ORRERY_INLINE Bunch<typename V::Real> bound(const RaySpan<typename V::Real>& ray
 template <class V>
 struct Cone {
     using Real = typename V::Real;
-    using F = typename V::F;
+    using F = Floats<V>;
 
-    ORRERY_INLINE explicit Cone(const Bunch<Real>& bunch)
-        : origin{F(bunch.origin.x), F(bunch.origin.y), F(bunch.origin.z)},
-          axis{F(bunch.axis.x), F(bunch.axis.y), F(bunch.axis.z)},
-          spread(bunch.spread),
-          deviation(bunch.deviation),
-          t_max(bunch.t_max) {
-        const Real square = dot(bunch.axis, bunch.axis) - bunch.deviation * bunch.deviation;
+    ORRERY_INLINE explicit Cone(const Packet<Real>& packet)
+        : origin{F(packet.origin.x), F(packet.origin.y), F(packet.origin.z)},
+          axis{F(packet.axis.x), F(packet.axis.y), F(packet.axis.z)},
+          spread(packet.spread),
+          deviation(packet.deviation),
+          t_max(packet.t_max) {
+        const Real square = dot(packet.axis, packet.axis) - packet.deviation * packet.deviation;
         narrow = square > Real(0.01);
         inverse_square = F(Real(1) / square);
     }
 
     /// Errs on the side of yes.
-    ORRERY_INLINE typename V::M may_meet(const Vec3<F>& centre, const F& sphere_radius) const {
+    ORRERY_INLINE Mask<V> may_meet(const Vec3<F>& centre, const F& sphere_radius) const {
         const Vec3<F> f = centre - origin;
         const F f2 = dot(f, f);
         const F enough = sphere_radius + spread;
@@ -159,24 +159,22 @@ struct Cone {
     bool narrow;  ///< or else it bounds nothing
 };
 
-/// The spheres of a table of at most SomeSpheres::capacity that some ray of the bunch may meet.
+/// The spheres of a table of at most SomeSpheres::capacity that some ray of the packet may meet.
 template <class V>
-ORRERY_INLINE SomeSpheres candidates(const SphereTable<typename V::Real>& spheres,
-                                     const Bunch<typename V::Real>& bunch) {
-    const Cone<V> cone(bunch);
+ORRERY_INLINE SomeSpheres candidates(const Spheres<V>& spheres, const Packet<RealOf<V>>& packet) {
+    const Cone<V> cone(packet);
     if (!cone.narrow) return every(spheres.count);
     std::uint64_t may = 0;
     for (std::uint32_t k = 0; k < spheres.count; k += V::count) {
         const auto centre = load3<V>(spheres.cx + k, spheres.cy + k, spheres.cz + k);
-        may |= std::uint64_t{bits(cone.may_meet(centre, load<typename V::F>(spheres.radius + k)))} << k;
+        may |= std::uint64_t{bits(cone.may_meet(centre, load<Floats<V>>(spheres.radius + k)))} << k;
     }
     return {may & every(spheres.count).bits};
 }
 
 /// The same for rays that may run anywhere.
 template <class V>
-ORRERY_INLINE SomeSpheres candidates(const SphereTable<typename V::Real>& spheres,
-                                     const RaySpan<typename V::Real>& rays) {
+ORRERY_INLINE SomeSpheres candidates(const Spheres<V>& spheres, const RaySpan<RealOf<V>>& rays) {
     return may_be_coherent(rays) ? candidates<V>(spheres, bound<V>(rays)) : every(spheres.count);
 }
 

@@ -19,7 +19,7 @@ namespace orrery::kernels {
 inline constexpr std::uint32_t widest = 32;
 
 /// Rays bounded together, and rays that go down a tree together. Fewer waste the bound, more widen it.
-inline constexpr std::uint32_t bunch_size = 256;
+inline constexpr std::uint32_t packet_size = 256;
 
 ORRERY_INLINE constexpr std::uint32_t round_up(std::uint32_t n) { return (n + widest - 1) / widest * widest; }
 
@@ -34,7 +34,7 @@ struct RayQueue {
                          ///< found by this ray competes with light samples: +inf counts it whole, 0 not at all.
                          ///< Null where the plan has no such competition.
     Real* eta_scale;     ///< product of the (eta_i / eta_t)^2 inside the throughput. Null without dielectrics.
-    Word* left;          ///< sphere the ray leaves, inside_bit set when it runs inward; no_sphere from the camera
+    Word* departed;      ///< sphere the ray leaves, inside_bit set when it runs inward; no_sphere from the camera
     Word* slot;          ///< which (pixel, sample) of the wave
     Word* pixel;   ///< the slot's pixel and sample as they are there, keys of randomness: carried along, as moving
     Word* sample;  ///< two words with the ray costs less than gathering them by slot at a vertex's four uses
@@ -47,7 +47,7 @@ struct RayQueue {
         visit("dx", &RayQueue::dx), visit("dy", &RayQueue::dy), visit("dz", &RayQueue::dz);
         visit("tr", &RayQueue::tr), visit("tg", &RayQueue::tg), visit("tb", &RayQueue::tb);
         visit("pdf", &RayQueue::pdf), visit("eta_scale", &RayQueue::eta_scale);
-        visit("left", &RayQueue::left), visit("slot", &RayQueue::slot);
+        visit("departed", &RayQueue::departed), visit("slot", &RayQueue::slot);
         visit("pixel", &RayQueue::pixel), visit("sample", &RayQueue::sample), visit("vertex", &RayQueue::vertex);
     }
 };
@@ -86,7 +86,7 @@ struct ShadowQueue {
     Real *dx, *dy, *dz;   ///< direction, unit length
     Real* inverse_t_max;  ///< 1 / distance to the light; what the occlusion test wants
     Real *r, *g, *b;      ///< contribution if unoccluded
-    Word* left;           ///< as in RayQueue
+    Word* departed;       ///< as in RayQueue
     Word* slot;
     Word* target;  ///< sphere the segment ends on, no_sphere for a point light. Null where all of a queue end on one.
 
@@ -96,7 +96,7 @@ struct ShadowQueue {
         visit("dx", &ShadowQueue::dx), visit("dy", &ShadowQueue::dy), visit("dz", &ShadowQueue::dz);
         visit("inverse_t_max", &ShadowQueue::inverse_t_max);
         visit("r", &ShadowQueue::r), visit("g", &ShadowQueue::g), visit("b", &ShadowQueue::b);
-        visit("left", &ShadowQueue::left), visit("slot", &ShadowQueue::slot);
+        visit("departed", &ShadowQueue::departed), visit("slot", &ShadowQueue::slot);
         visit("target", &ShadowQueue::target);
     }
 };
@@ -163,5 +163,17 @@ ORRERY_INLINE constexpr std::uint32_t padded_run(std::uint32_t count) { return r
 ORRERY_INLINE constexpr std::uint32_t ray_capacity(std::uint32_t slots) {
     return round_up(slots + scattering_count * 2 * widest);
 }
+
+// Those of a type of lanes, for short.
+template <class V>
+using Rays = RayQueue<typename V::Real>;
+template <class V>
+using Hits = HitQueue<typename V::Real>;
+template <class V>
+using Lobes = LobeQueue<typename V::Real>;
+template <class V>
+using Shadows = ShadowQueue<typename V::Real>;
+template <class V>
+using Slots = SlotTable<typename V::Real>;
 
 }  // namespace orrery::kernels

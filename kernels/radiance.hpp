@@ -11,7 +11,7 @@ namespace detail {
 
 /// (x, y, z, 0) of every lane: that of lane 4 i + j goes to out[j * V::count + 4 i].
 template <class V>
-ORRERY_INLINE void save_rows(float* out, const Vec3<typename V::F>& v) {
+ORRERY_INLINE void save_rows(float* out, const Vec3Of<V>& v) {
 #if defined(__AVX512F__)
     if constexpr (V::count == 16) {
         const __m512 zero = _mm512_setzero_ps();
@@ -55,7 +55,7 @@ ORRERY_INLINE void save_rows(float* out, const Vec3<typename V::F>& v) {
 /// valid row. (Gathering, adding and scattering a column at a time takes the processor longer than these single rows,
 /// and needs the rows of a vector to differ.)
 template <class V>
-ORRERY_INLINE void add_to_rows(typename V::Real* rows, const typename V::U& row, const Vec3<typename V::F>& value) {
+ORRERY_INLINE void add_to_rows(RealOf<V>* rows, const Words<V>& row, const Vec3Of<V>& value) {
     if constexpr (V::count == 1) {
         rows[4 * row] += value.x;
         rows[4 * row + 1] += value.y;
@@ -65,7 +65,7 @@ ORRERY_INLINE void add_to_rows(typename V::Real* rows, const typename V::U& row,
         using Rgb = Vec3<typename Half::F>;
         add_to_rows<Half>(rows, row.low, Rgb{value.x.low, value.y.low, value.z.low});
         add_to_rows<Half>(rows, row.high, Rgb{value.x.high, value.y.high, value.z.high});
-    } else if constexpr (sizeof(typename V::Real) == 8) {
+    } else if constexpr (sizeof(RealOf<V>) == 8) {
         alignas(64) std::uint64_t at[V::count];
         alignas(64) double x[V::count], y[V::count], z[V::count];
         row.store_aligned(at);
@@ -79,7 +79,7 @@ ORRERY_INLINE void add_to_rows(typename V::Real* rows, const typename V::U& row,
         alignas(64) float terms[4 * V::count];
         row.store_aligned(at);
         detail::save_rows<V>(terms, value);
-        using Row = xsimd::batch<typename V::Real, xsimd::sse2>;
+        using Row = xsimd::batch<RealOf<V>, xsimd::sse2>;
         for (std::uint32_t lane = 0; lane < V::count; ++lane) {
             float* const sum = rows + std::size_t{4} * at[lane];
             const float* const term = terms + lane % 4 * V::count + lane / 4 * 4;
@@ -90,10 +90,10 @@ ORRERY_INLINE void add_to_rows(typename V::Real* rows, const typename V::U& row,
 
 /// Adds the chosen lanes to their slots.
 template <class V>
-ORRERY_INLINE void add_radiance(const SlotTable<typename V::Real>& slots, const typename V::U& slot,
-                                const Vec3<typename V::F>& radiance, const typename V::M& chosen) {
-    using F = typename V::F;
-    using U = typename V::U;
+ORRERY_INLINE void add_radiance(const Slots<V>& slots, const Words<V>& slot, const Vec3Of<V>& radiance,
+                                const Mask<V>& chosen) {
+    using F = Floats<V>;
+    using U = Words<V>;
     const Vec3<F> none{F(0), F(0), F(0)};
     add_to_rows<V>(slots.radiance, choose(chosen, slot, U(0u)), choose(chosen, radiance, none));
 }

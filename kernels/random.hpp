@@ -68,9 +68,9 @@ ORRERY_INLINE std::uint32_t word_of(const RandomKey& key) {
 
 /// Independent numbers. `vertex` is the bounce number of a path, or the node of a Whitted ray tree.
 template <class V>
-ORRERY_INLINE RandomNumbers<typename V::F> random_block(const RandomKey& key, const typename V::U& pixel,
-                                                        const typename V::U& sample, const typename V::U& vertex) {
-    using U = typename V::U;
+ORRERY_INLINE RandomNumbers<Floats<V>> random_block(const RandomKey& key, const Words<V>& pixel, const Words<V>& sample,
+                                                    const Words<V>& vertex) {
+    using U = Words<V>;
     const auto r = pcg4d<U>(pixel, sample, vertex, U(detail::word_of(key)));
     return {unit_interval(r.x), unit_interval(r.y), unit_interval(r.z), unit_interval(r.w)};
 }
@@ -132,9 +132,9 @@ ORRERY_INLINE SobolPair<U> sobol_pair(const U& place, const U& order, const U& s
 /// Points of Sobol's sequences: x and y are one, z and w another, each pair spread evenly, and paired with the other by
 /// chance. `sample` has its bits reversed.
 template <class V>
-ORRERY_INLINE RandomNumbers<typename V::F> sobol_block(const RandomKey& key, const typename V::U& pixel,
-                                                       const typename V::U& sample, const typename V::U& vertex) {
-    using U = typename V::U;
+ORRERY_INLINE RandomNumbers<Floats<V>> sobol_block(const RandomKey& key, const Words<V>& pixel, const Words<V>& sample,
+                                                   const Words<V>& vertex) {
+    using U = Words<V>;
     const U word(detail::word_of(key));
     const U place = sample << 1;
     const U sequence = low_half(sample) >> 31;

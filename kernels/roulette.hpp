@@ -10,9 +10,9 @@ namespace orrery::kernels {
 /// always; with `play`, a ray survives with probability q = min(1, max component of its throughput without the
 /// radiance scaling by eta) and is divided by q. In place: a survivor never moves back.
 template <class V>
-std::uint32_t roulette(const SlotTable<typename V::Real>& slots, std::uint32_t seed, std::uint32_t bounce, bool play,
-                       const Runs& runs, const RayQueue<typename V::Real>& rays) {
-    using F = typename V::F;
+std::uint32_t roulette(const Slots<V>& slots, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs& runs,
+                       const Rays<V>& rays) {
+    using F = Floats<V>;
     const RandomKey key{seed, Dimension::roulette, 0};
     std::uint32_t size = 0;
     for (const Range& run : runs.run) {

@@ -27,9 +27,9 @@ consteval Real taylor_coefficient(int k, int first) {
 
 /// The series from its term k on, by Horner's rule.
 template <class V, int first, int k = 0>
-ORRERY_INLINE typename V::F taylor_series(const typename V::F& a2) {
+ORRERY_INLINE Floats<V> taylor_series(const Floats<V>& a2) {
     using Real = typename V::Real;
-    const typename V::F coefficient(taylor_coefficient<Real>(k, first));
+    const Floats<V> coefficient(taylor_coefficient<Real>(k, first));
     if constexpr (k + 1 == taylor_terms<Real>) {
         return coefficient;
     } else {
@@ -41,12 +41,12 @@ ORRERY_INLINE typename V::F taylor_series(const typename V::F& a2) {
 /// Sine and cosine of u turns, u in [0, 1), to 2 ulp of 1. Our own series, so that every instruction set rounds alike:
 /// the quarter turn nearest is taken off exactly, what is left is at most pi/4 and a short Taylor series does.
 template <class V>
-ORRERY_INLINE SinCos<typename V::F> sincos_turns(const typename V::F& u) {
-    using F = typename V::F;
-    using U = typename V::U;
+ORRERY_INLINE SinCos<Floats<V>> sincos_turns(const Floats<V>& u) {
+    using F = Floats<V>;
+    using U = Words<V>;
     const F quarters = u * F(4);
     const U quarter = truncate_to_word(quarters + F(0.5f));
-    const F a = (quarters - to_number(quarter)) * F(static_cast<typename V::Real>(std::numbers::pi / 2));
+    const F a = (quarters - to_number(quarter)) * F(static_cast<RealOf<V>>(std::numbers::pi / 2));
     const F a2 = a * a;
     const F s = a * detail::taylor_series<V, 1>(a2);
     const F c = detail::taylor_series<V, 0>(a2);
@@ -56,8 +56,8 @@ ORRERY_INLINE SinCos<typename V::F> sincos_turns(const typename V::F& u) {
 
 /// Uniform on the unit sphere (Archimedes: z is uniform). 1 - z^2 = 4 u (1 - u) keeps its digits at the poles.
 template <class V>
-ORRERY_INLINE Vec3<typename V::F> sample_unit_sphere(const typename V::F& u, const typename V::F& v) {
-    using F = typename V::F;
+ORRERY_INLINE Vec3Of<V> sample_unit_sphere(const Floats<V>& u, const Floats<V>& v) {
+    using F = Floats<V>;
     const F r = F(2) * root(u * (F(1) - u));
     const auto phi = sincos_turns<V>(v);
     return {r * phi.cos, r * phi.sin, neg_mul_add(F(2), u, F(1))};
@@ -73,18 +73,17 @@ struct DirectionSample {
 /// sphere that touches the surface, whose points are cosine distributed as seen from it. Needs no basis; the cosine is
 /// half the length before normalising, exact where a dot product would cancel.
 template <class V>
-ORRERY_INLINE DirectionSample<typename V::F> sample_cosine(const Vec3<typename V::F>& n, const typename V::F& u,
-                                                           const typename V::F& v) {
-    using F = typename V::F;
+ORRERY_INLINE DirectionSample<Floats<V>> sample_cosine(const Vec3Of<V>& n, const Floats<V>& u, const Floats<V>& v) {
+    using F = Floats<V>;
     const Vec3<F> sum = n + sample_unit_sphere<V>(u, v);
     // Far below the square of an ulp: only a sum of exactly zero is touched, which no pair of numbers makes likely.
-    const F length = root(max(dot(sum, sum), F(sizeof(typename V::Real) == 4 ? 0x1p-80f : 0x1p-126f)));
+    const F length = root(max(dot(sum, sum), F(sizeof(RealOf<V>) == 4 ? 0x1p-80f : 0x1p-126f)));
     return {sum * (F(1) / length), F(0.5f) * length};
 }
 
 /// Uniform on the disk of radius 1.
 template <class V>
-ORRERY_INLINE SinCos<typename V::F> sample_disk(const typename V::F& u, const typename V::F& v) {
+ORRERY_INLINE SinCos<Floats<V>> sample_disk(const Floats<V>& u, const Floats<V>& v) {
     const auto r = root(u);
     const auto phi = sincos_turns<V>(v);
     return {r * phi.sin, r * phi.cos};

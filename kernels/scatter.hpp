@@ -13,24 +13,22 @@ namespace orrery::kernels {
 /// What a scattering event makes of a ray, its throughput apart.
 template <class V>
 struct Scattered {
-    Vec3<typename V::F> direction;  ///< unit length
-    typename V::F pdf;              ///< see RayQueue::pdf
-    typename V::U side;             ///< inside_bit where the ray leaves inward
-    Vec3<typename V::F> lobe;       ///< unperturbed direction, glossy and translucent only
-    typename V::M transmits;        ///< it crosses the surface, dielectric and translucent only
-    typename V::F eta_scale;        ///< (eta_i / eta_t)^2 of this event, 1 unless it crosses; as above
+    Vec3Of<V> direction;  ///< unit length
+    Floats<V> pdf;        ///< see RayQueue::pdf
+    Words<V> side;        ///< inside_bit where the ray leaves inward
+    Vec3Of<V> lobe;       ///< unperturbed direction, glossy and translucent only
+    Mask<V> transmits;    ///< it crosses the surface, dielectric and translucent only
+    Floats<V> eta_scale;  ///< (eta_i / eta_t)^2 of this event, 1 unless it crosses; as above
 };
 
 template <class V>
-ORRERY_INLINE Vec3<typename V::F> reflectance_of(const MaterialTable<typename V::Real>& materials,
-                                                 const typename V::U& material) {
+ORRERY_INLINE Vec3Of<V> reflectance_of(const Materials<V>& materials, const Words<V>& material) {
     return lookup3<V>(materials.rho_r, materials.rho_g, materials.rho_b, material, materials.count);
 }
 
 /// Throughput factor, radiance scaling by eta included.
 template <class V, Scattering kind>
-ORRERY_INLINE Vec3<typename V::F> weight_of(const MaterialTable<typename V::Real>& materials,
-                                            const typename V::U& material, const Scattered<V>& out) {
+ORRERY_INLINE Vec3Of<V> weight_of(const Materials<V>& materials, const Words<V>& material, const Scattered<V>& out) {
     const auto rho = reflectance_of<V>(materials, material);
     if constexpr (traits_of(kind).is_interface) {
         // One lobe at random, chosen with probability F: what F multiplies cancels.
@@ -42,11 +40,10 @@ ORRERY_INLINE Vec3<typename V::F> weight_of(const MaterialTable<typename V::Real
 }
 
 template <class V, Scattering kind>
-ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<typename V::Real>& context, const Vertex<V>& vertex,
-                                      const Vec3<typename V::F>& direction,
-                                      const RandomNumbers<typename V::F>& random) {
-    using F = typename V::F;
-    using U = typename V::U;
+ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<RealOf<V>>& context, const Vertex<V>& vertex,
+                                      const Vec3Of<V>& direction, const RandomNumbers<Floats<V>>& random) {
+    using F = Floats<V>;
+    using U = Words<V>;
     using Real = typename V::Real;
     const F infinity(std::numeric_limits<Real>::infinity());
     const F one(1);
@@ -95,10 +92,10 @@ ORRERY_INLINE Scattered<V> scatter_at(const ScatterContext<typename V::Real>& co
 /// Everything is loaded where it is needed and saved as soon as it is known: what stays alive across the sampling
 /// spills.
 template <class V, Scattering kind>
-void scatter(const ScatterContext<typename V::Real>& context, Range run, const RayQueue<typename V::Real>& rays,
-             const HitQueue<typename V::Real>& hits, const LobeQueue<typename V::Real>& lobes) {
-    using F = typename V::F;
-    using U = typename V::U;
+void scatter(const ScatterContext<RealOf<V>>& context, Range run, const Rays<V>& rays, const Hits<V>& hits,
+             const Lobes<V>& lobes) {
+    using F = Floats<V>;
+    using U = Words<V>;
     const Vec3<F> none{F(0), F(0), F(0)};
     constexpr int dimensions = traits_of(kind).dimensions;
     const RandomKey key{context.seed, Dimension::scattering, 0};
@@ -112,7 +109,7 @@ void scatter(const ScatterContext<typename V::Real>& context, Range run, const R
         save3<V>(rays.ox + i, rays.oy + i, rays.oz + i, in.vertex.position);
         const auto out = scatter_at<V, kind>(context, in.vertex, in.direction, random);
         save3<V>(rays.dx + i, rays.dy + i, rays.dz + i, out.direction);
-        save(rays.left + i, in.vertex.sphere | out.side);
+        save(rays.departed + i, in.vertex.sphere | out.side);
         if (rays.pdf != nullptr) save(rays.pdf + i, out.pdf);
         // In a ray tree a mirror has one branch. (What a diffuse vertex has is its light samples, under its own
         // number.)

@@ -67,10 +67,10 @@ ORRERY_INLINE TreeSource<Real> source_of(const SegmentColumns<Real>& s, std::uin
 
 /// The vector form of `intersects`: hits[i] with inside_bit in the id, no_sphere and t_max where nothing was hit.
 template <class V>
-void intersects_columns(const SphereTable<typename V::Real>& spheres, const SegmentColumns<typename V::Real>& segments,
-                        std::uint32_t count, const HitQueue<typename V::Real>& hits) {
-    using F = typename V::F;
-    using U = typename V::U;
+void intersects_columns(const Spheres<V>& spheres, const SegmentColumns<RealOf<V>>& segments, std::uint32_t count,
+                        const Hits<V>& hits) {
+    using F = Floats<V>;
+    using U = Words<V>;
     if (spheres.tree.count == 0) {
         for (std::uint32_t i = 0; i < count; i += V::count) {
             const auto best = closest_hit<V>(spheres, AllSpheres{spheres.count},
@@ -82,12 +82,12 @@ void intersects_columns(const SphereTable<typename V::Real>& spheres, const Segm
         }
         return;
     }
-    TreeHits<typename V::Real> found;
-    for (std::uint32_t first = 0; first < count; first += bunch_size) {
-        const std::uint32_t bunch = count - first < bunch_size ? count - first : bunch_size;
-        for (std::uint32_t i = 0; i < bunch; i += V::count) save(found.t + i, load<F>(segments.t_max + first + i));
-        closest_in_tree<V>(spheres, source_of(segments, first), bunch, found);
-        for (std::uint32_t i = 0; i < bunch; i += V::count) {
+    TreeHits<RealOf<V>> found;
+    for (std::uint32_t first = 0; first < count; first += packet_size) {
+        const std::uint32_t packet = count - first < packet_size ? count - first : packet_size;
+        for (std::uint32_t i = 0; i < packet; i += V::count) save(found.t + i, load<F>(segments.t_max + first + i));
+        closest_in_tree<V>(spheres, source_of(segments, first), packet, found);
+        for (std::uint32_t i = 0; i < packet; i += V::count) {
             save(hits.t + first + i, load<F>(found.t + i));
             save(hits.id + first + i, load<U>(found.id + i));
         }
@@ -96,10 +96,10 @@ void intersects_columns(const SphereTable<typename V::Real>& spheres, const Segm
 
 /// The vector form of `is_occluded`: occluded[i] is 1 or 0.
 template <class V>
-void is_occluded_columns(const SphereTable<typename V::Real>& spheres, const SegmentColumns<typename V::Real>& segments,
-                         std::uint32_t count, typename V::Word* occluded) {
-    using F = typename V::F;
-    using U = typename V::U;
+void is_occluded_columns(const Spheres<V>& spheres, const SegmentColumns<RealOf<V>>& segments, std::uint32_t count,
+                         WordOf<RealOf<V>>* occluded) {
+    using F = Floats<V>;
+    using U = Words<V>;
     if (spheres.tree.count == 0) {
         for (std::uint32_t i = 0; i < count; i += V::count) {
             const auto blocked = any_hit<V>(
@@ -110,12 +110,12 @@ void is_occluded_columns(const SphereTable<typename V::Real>& spheres, const Seg
         }
         return;
     }
-    alignas(64) typename V::Real inverse_t_max[bunch_size];
-    for (std::uint32_t first = 0; first < count; first += bunch_size) {
-        const std::uint32_t bunch = count - first < bunch_size ? count - first : bunch_size;
-        for (std::uint32_t i = 0; i < bunch; i += V::count)
+    alignas(64) RealOf<V> inverse_t_max[packet_size];
+    for (std::uint32_t first = 0; first < count; first += packet_size) {
+        const std::uint32_t packet = count - first < packet_size ? count - first : packet_size;
+        for (std::uint32_t i = 0; i < packet; i += V::count)
             save(inverse_t_max + i, F(1) / load<F>(segments.t_max + first + i));
-        occluded_in_tree<V>(spheres, source_of(segments, first), inverse_t_max, bunch, no_sphere, occluded + first);
+        occluded_in_tree<V>(spheres, source_of(segments, first), inverse_t_max, packet, no_sphere, occluded + first);
     }
 }
 

@@ -12,16 +12,15 @@ namespace orrery::kernels {
 /// Lanes that hit something and carry anything, and the surface word of what they hit (0 elsewhere).
 template <class V>
 struct LiveHits {
-    typename V::M live;
-    typename V::M met;  ///< hit something, dead or alive
-    typename V::U surface;
+    Mask<V> live;
+    Mask<V> met;  ///< hit something, dead or alive
+    Words<V> surface;
 };
 
 template <class V>
-ORRERY_INLINE LiveHits<V> live_hits(const SphereTable<typename V::Real>& spheres,
-                                    const RayQueue<typename V::Real>& rays, const HitQueue<typename V::Real>& hits,
+ORRERY_INLINE LiveHits<V> live_hits(const Spheres<V>& spheres, const Rays<V>& rays, const Hits<V>& hits,
                                     std::uint32_t i, std::uint32_t count) {
-    using U = typename V::U;
+    using U = Words<V>;
     const U hit = load<U>(hits.id + i);
     const auto met = first_lanes<V>(count - i) && !words_equal(hit, U(no_sphere));
     const auto live = met && !carries_nothing(load3<V>(rays.tr + i, rays.tg + i, rays.tb + i));
@@ -30,7 +29,7 @@ ORRERY_INLINE LiveHits<V> live_hits(const SphereTable<typename V::Real>& spheres
 
 template <class V>
 ORRERY_INLINE std::uint32_t lanes_of_kind(const LiveHits<V>& hits, std::uint32_t kind) {
-    using U = typename V::U;
+    using U = Words<V>;
     const U of = (hits.surface >> surface_material_bits) & U(surface_kind_mask);
     return bits(hits.live && words_equal(of, U(kind)));
 }
@@ -49,17 +48,15 @@ ORRERY_INLINE bool is_sorted(const Runs& runs, std::uint32_t count) {
 /// Where nothing moved the queues are one run as they are, misses among it, as in a scene that has one way of
 /// scattering only. `kinds` has bit k set where the plan knows kind k; no other is looked for.
 template <class V>
-Runs sort_by_scattering(const SphereTable<typename V::Real>& spheres, std::uint32_t kinds,
-                        const RayQueue<typename V::Real>& rays, const HitQueue<typename V::Real>& hits,
-                        std::uint32_t count, const RayQueue<typename V::Real>& sorted_rays,
-                        const HitQueue<typename V::Real>& sorted_hits) {
+Runs sort_by_scattering(const Spheres<V>& spheres, std::uint32_t kinds, const Rays<V>& rays, const Hits<V>& hits,
+                        std::uint32_t count, const Rays<V>& sorted_rays, const Hits<V>& sorted_hits) {
     Runs runs;
     std::uint32_t dead = 0;  // they may have hit anything, also what no kernel of the run knows
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const auto hit = live_hits<V>(spheres, rays, hits, i, count);
         dead |= bits(hit.met) ^ bits(hit.live);
-        for (std::uint32_t left = kinds; left != 0; left &= left - 1) {
-            const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
+        for (std::uint32_t rest = kinds; rest != 0; rest &= rest - 1) {
+            const auto k = static_cast<std::uint32_t>(std::countr_zero(rest));
             runs.run[k].count += static_cast<std::uint32_t>(std::popcount(lanes_of_kind(hit, k)));
         }
     }
@@ -77,8 +74,8 @@ Runs sort_by_scattering(const SphereTable<typename V::Real>& spheres, std::uint3
     }
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const auto hit = live_hits<V>(spheres, rays, hits, i, count);
-        for (std::uint32_t left = kinds; left != 0; left &= left - 1) {
-            const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
+        for (std::uint32_t rest = kinds; rest != 0; rest &= rest - 1) {
+            const auto k = static_cast<std::uint32_t>(std::countr_zero(rest));
             const std::uint32_t chosen = lanes_of_kind(hit, k);
             if (chosen == 0) continue;
             move_record<V>(rays, i, sorted_rays, to[k], chosen);

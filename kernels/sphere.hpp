@@ -23,15 +23,14 @@ struct Sphere {
 };
 
 template <class V>
-ORRERY_INLINE Sphere<typename V::F> broadcast_sphere(const SphereTable<typename V::Real>& spheres, std::uint32_t k) {
-    using F = typename V::F;
+ORRERY_INLINE Sphere<Floats<V>> broadcast_sphere(const Spheres<V>& spheres, std::uint32_t k) {
+    using F = Floats<V>;
     return {{F(spheres.cx[k]), F(spheres.cy[k]), F(spheres.cz[k])}, F(spheres.radius[k]), F(spheres.radius2[k])};
 }
 
 template <class V>
-ORRERY_INLINE Sphere<typename V::F> gather_sphere(const SphereTable<typename V::Real>& spheres,
-                                                  const typename V::U& id) {
-    const auto radius = lookup<typename V::F>(spheres.radius, id, spheres.count);
+ORRERY_INLINE Sphere<Floats<V>> gather_sphere(const Spheres<V>& spheres, const Words<V>& id) {
+    const auto radius = lookup<Floats<V>>(spheres.radius, id, spheres.count);
     return {lookup3<V>(spheres.cx, spheres.cy, spheres.cz, id, spheres.count), radius, radius * radius};
 }
 
@@ -61,9 +60,9 @@ ORRERY_INLINE Chord<F> chord(const Vec3<F>& origin, const Vec3<F>& direction, co
 /// t = num / den, den > 0.
 template <class V>
 struct Root {
-    typename V::F num, den;
-    typename V::M exists;
-    typename V::M inside;  ///< it is the far one: the ray meets the sphere from within
+    Floats<V> num, den;
+    Mask<V> exists;
+    Mask<V> inside;  ///< it is the far one: the ray meets the sphere from within
 };
 
 /// A segment that begins at its ray's origin: t_min = 0, known when compiling.
@@ -81,9 +80,9 @@ ORRERY_INLINE F times(const F& t_min, const F& den) {
 /// line misses the sphere s is no number, and num or den with it: no comparison of t holds. Start is FromOrigin or a
 /// vector of t_min >= 0.
 template <class V, class Start>
-ORRERY_INLINE Root<V> first_root(const Chord<typename V::F>& chord, const typename V::F& s, const Start& t_min,
-                                 const typename V::M& candidate) {
-    using F = typename V::F;
+ORRERY_INLINE Root<V> first_root(const Chord<Floats<V>>& chord, const Floats<V>& s, const Start& t_min,
+                                 const Mask<V>& candidate) {
+    using F = Floats<V>;
     const auto ahead = chord.b > F(0);
     const F q = magnitude(chord.b) + s;
     // Ahead: the near root c/q, or the far one q where the near one is not beyond t_min (from inside, c < 0, it never
@@ -100,13 +99,13 @@ ORRERY_INLINE Root<V> first_root(const Chord<typename V::F>& chord, const typena
 /// negative or g^2 < disc. No square root and no division; the signs are tested together, one comparison where masks
 /// would take three.
 template <class V>
-ORRERY_INLINE typename V::M near_root_before(const Chord<typename V::F>& chord, const typename V::F& inverse_t) {
-    using F = typename V::F;
+ORRERY_INLINE Mask<V> near_root_before(const Chord<Floats<V>>& chord, const Floats<V>& inverse_t) {
+    using F = Floats<V>;
     const F g = mul_sub(chord.c, inverse_t, chord.b);
     return min(chord.disc, min(chord.b, chord.c)) > F(0) && g * magnitude(g) < chord.disc;
 }
 
-/// Where a ray that leaves sphere `left` inward meets it again: 2b, clamped at 0 for rounding at grazing incidence.
+/// Where a ray that leaves sphere `departed` inward meets it again: 2b, clamped at 0 for rounding at grazing incidence.
 template <class F>
 ORRERY_INLINE F inner_far_root(const Vec3<F>& origin, const Vec3<F>& direction, const Sphere<F>& sphere) {
     const F b = dot(sphere.centre - origin, direction);

@@ -160,4 +160,12 @@ struct CameraTable {
     Real focal_distance;           ///< along Z
 };
 
+// Those of a type of lanes, for short.
+template <class V>
+using Spheres = SphereTable<typename V::Real>;
+template <class V>
+using Materials = MaterialTable<typename V::Real>;
+template <class V>
+using Lights = LightTable<typename V::Real>;
+
 }  // namespace orrery::kernels

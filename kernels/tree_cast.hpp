@@ -8,21 +8,21 @@
 
 namespace orrery::kernels {
 
-/// What a bunch of rays has found so far.
-template <class Real, std::uint32_t capacity = bunch_size>
+/// What a packet of rays has found so far.
+template <class Real, std::uint32_t capacity = packet_size>
 struct TreeHits {
     using Word = WordOf<Real>;
     alignas(64) Real t[capacity];   ///< t_max where nothing was met
     alignas(64) Word id[capacity];  ///< with inside_bit; no_sphere where nothing was met
 };
 
-/// Rays of a queue or columns. They begin at their origins and leave `left`, or they begin at t_min and leave nothing:
-/// one of the two is null.
+/// Rays of a queue or columns. They begin at their origins and leave `departed`, or they begin at t_min and leave
+/// nothing: one of the two is null.
 template <class Real>
 struct TreeSource {
     using Word = WordOf<Real>;
     const Real *ox, *oy, *oz, *dx, *dy, *dz;
-    const Word* left;
+    const Word* departed;
     const Real* t_min;
 };
 
@@ -41,28 +41,27 @@ ORRERY_INLINE F tree_limit(const F& t) {
     return t * F(static_cast<float>(limit_margin));
 }
 
-/// Closest hits of `count` <= capacity rays with t_min < t < t_max, as intersect.hpp's closest_hit has them.
+/// Closest hits of `count` <= capacity rays with t_min < t < t_max, as loop.hpp's closest_hit has them.
 /// hits.t holds t_max for every ray.
 template <class V, std::uint32_t capacity>
-ORRERY_INLINE void closest_in_tree(const SphereTable<typename V::Real>& spheres,
-                                   const TreeSource<typename V::Real>& source, std::uint32_t count,
-                                   TreeHits<typename V::Real, capacity>& hits) {
+ORRERY_INLINE void closest_in_tree(const Spheres<V>& spheres, const TreeSource<RealOf<V>>& source, std::uint32_t count,
+                                   TreeHits<RealOf<V>, capacity>& hits) {
     using Real = typename V::Real;
-    using Word = typename V::Word;
-    using F = typename V::F;
-    using U = typename V::U;
+    using Word = WordOf<RealOf<V>>;
+    using F = Floats<V>;
+    using U = Words<V>;
     TreeRays<Real, capacity> rays;
     TreeStack<V, capacity> stack;
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const auto o = load3<V>(source.ox + i, source.oy + i, source.oz + i);
         const auto d = load3<V>(source.dx + i, source.dy + i, source.dz + i);
         F t = load<F>(hits.t + i);
-        U id(no_sphere), left(no_sphere);
-        if (source.left != nullptr) {
-            left = choose(first_lanes<V>(count - i), load<U>(source.left + i), U(no_sphere));
-            put_inner_roots<V>(spheres, o, d, left, t, id);
+        U id(no_sphere), departed(no_sphere);
+        if (source.departed != nullptr) {
+            departed = choose(first_lanes<V>(count - i), load<U>(source.departed + i), U(no_sphere));
+            put_inner_roots<V>(spheres, o, d, departed, t, id);
         }
-        put_tree_rays<V>(rays, i, o, d, left & U(no_sphere), spheres.tree.extent, tree_limit(t));
+        put_tree_rays<V>(rays, i, o, d, departed & U(no_sphere), spheres.tree.extent, tree_limit(t));
         save(hits.t + i, t);
         save(hits.id + i, id);
     }
@@ -82,14 +81,14 @@ ORRERY_INLINE void closest_in_tree(const SphereTable<typename V::Real>& spheres,
 }
 
 /// Which of `count` <= capacity rays meet a sphere but `target` with t_min < t < 1 / inverse_t_max, as
-/// intersect.hpp's any_hit has it: 1 or 0.
-template <class V, std::uint32_t capacity = bunch_size, class Target>
-ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres,
-                                    const TreeSource<typename V::Real>& source, const typename V::Real* inverse_t_max,
-                                    std::uint32_t count, const Target& target, typename V::Word* occluded) {
+/// loop.hpp's any_hit has it: 1 or 0.
+template <class V, std::uint32_t capacity = packet_size, class Target>
+ORRERY_INLINE void occluded_in_tree(const Spheres<V>& spheres, const TreeSource<RealOf<V>>& source,
+                                    const RealOf<V>* inverse_t_max, std::uint32_t count, const Target& target,
+                                    WordOf<RealOf<V>>* occluded) {
     using Real = typename V::Real;
-    using F = typename V::F;
-    using U = typename V::U;
+    using F = Floats<V>;
+    using U = Words<V>;
     using One = ScalarLanes<Real>;
     TreeRays<Real, capacity> rays;
     TreeStack<V, capacity> stack;
@@ -97,14 +96,14 @@ ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres
         const auto o = load3<V>(source.ox + i, source.oy + i, source.oz + i);
         const auto d = load3<V>(source.dx + i, source.dy + i, source.dz + i);
         const F inverse = load<F>(inverse_t_max + i);
-        U blocked(0u), left_id(no_sphere);
-        if (source.left != nullptr) {
-            const U left = choose(first_lanes<V>(count - i), load<U>(source.left + i), U(no_sphere));
-            left_id = left & U(no_sphere);
-            const auto met = inner_root_before<V>(spheres, o, d, left, targets_at<V>(target, i), inverse);
+        U blocked(0u), departed_id(no_sphere);
+        if (source.departed != nullptr) {
+            const U departed = choose(first_lanes<V>(count - i), load<U>(source.departed + i), U(no_sphere));
+            departed_id = departed & U(no_sphere);
+            const auto met = inner_root_before<V>(spheres, o, d, departed, targets_at<V>(target, i), inverse);
             blocked = choose(met, U(1u), blocked);
         }
-        put_tree_rays<V>(rays, i, o, d, left_id, spheres.tree.extent,
+        put_tree_rays<V>(rays, i, o, d, departed_id, spheres.tree.extent,
                          choose(words_equal(blocked, U(1u)), F(-1), tree_limit(F(1) / inverse)));
         save(occluded + i, blocked);
     }
@@ -124,25 +123,24 @@ ORRERY_INLINE void occluded_in_tree(const SphereTable<typename V::Real>& spheres
 }
 
 template <class V>
-void intersect_tree(const SphereTable<typename V::Real>& spheres, const RayQueue<typename V::Real>& rays,
-                    std::uint32_t count, const HitQueue<typename V::Real>& hits) {
+void intersect_tree(const Spheres<V>& spheres, const Rays<V>& rays, std::uint32_t count, const Hits<V>& hits) {
     using Real = typename V::Real;
-    using F = typename V::F;
-    using U = typename V::U;
+    using F = Floats<V>;
+    using U = Words<V>;
     TreeHits<Real> found;
-    for (std::uint32_t first = 0; first < count; first += bunch_size) {
-        const std::uint32_t bunch = count - first < bunch_size ? count - first : bunch_size;
+    for (std::uint32_t first = 0; first < count; first += packet_size) {
+        const std::uint32_t packet = count - first < packet_size ? count - first : packet_size;
         SphereList<Real> list;
-        if (collect<V>(spheres, span_of(rays, first, bunch), list)) {
-            intersect_list<V>(spheres, list, rays, first, first + bunch, hits);
+        if (collect<V>(spheres, span_of(rays, first, packet), list)) {
+            intersect_list<V>(spheres, list, rays, first, first + packet, hits);
             continue;
         }
-        for (std::uint32_t i = 0; i < bunch_size; ++i) found.t[i] = std::numeric_limits<Real>::infinity();
+        for (std::uint32_t i = 0; i < packet_size; ++i) found.t[i] = std::numeric_limits<Real>::infinity();
         closest_in_tree<V>(spheres,
                            {rays.ox + first, rays.oy + first, rays.oz + first, rays.dx + first, rays.dy + first,
-                            rays.dz + first, rays.left + first, nullptr},
-                           bunch, found);
-        for (std::uint32_t i = 0; i < bunch; i += V::count) {
+                            rays.dz + first, rays.departed + first, nullptr},
+                           packet, found);
+        for (std::uint32_t i = 0; i < packet; i += V::count) {
             save(hits.t + first + i, load<F>(found.t + i));
             save(hits.id + first + i, load<U>(found.id + i));
         }
@@ -151,25 +149,24 @@ void intersect_tree(const SphereTable<typename V::Real>& spheres, const RayQueue
 
 /// `target` as in targets_at.
 template <class V, class Target>
-ORRERY_INLINE void shadow_in_tree(const SphereTable<typename V::Real>& spheres,
-                                  const ShadowQueue<typename V::Real>& queue, std::uint32_t count, const Target& target,
-                                  const SlotTable<typename V::Real>& slots) {
-    using Word = typename V::Word;
-    using U = typename V::U;
-    alignas(64) Word occluded[bunch_size];
-    for (std::uint32_t first = 0; first < count; first += bunch_size) {
-        const std::uint32_t bunch = count - first < bunch_size ? count - first : bunch_size;
-        SphereList<typename V::Real> list;
-        if (collect<V>(spheres, span_of(queue, first, bunch), list)) {
-            shadow_among<V>(spheres, list, queue, first, first + bunch, target, slots);
+ORRERY_INLINE void shadow_in_tree(const Spheres<V>& spheres, const Shadows<V>& queue, std::uint32_t count,
+                                  const Target& target, const Slots<V>& slots) {
+    using Word = WordOf<RealOf<V>>;
+    using U = Words<V>;
+    alignas(64) Word occluded[packet_size];
+    for (std::uint32_t first = 0; first < count; first += packet_size) {
+        const std::uint32_t packet = count - first < packet_size ? count - first : packet_size;
+        SphereList<RealOf<V>> list;
+        if (collect<V>(spheres, span_of(queue, first, packet), list)) {
+            shadow_among<V>(spheres, list, queue, first, first + packet, target, slots);
             continue;
         }
         occluded_in_tree<V>(spheres,
                             {queue.ox + first, queue.oy + first, queue.oz + first, queue.dx + first, queue.dy + first,
-                             queue.dz + first, queue.left + first, nullptr},
-                            queue.inverse_t_max + first, bunch, targets_behind(target, first), occluded);
-        for (std::uint32_t i = 0; i < bunch; i += V::count) {
-            const auto live = first_lanes<V>(bunch - i);
+                             queue.dz + first, queue.departed + first, nullptr},
+                            queue.inverse_t_max + first, packet, targets_behind(target, first), occluded);
+        for (std::uint32_t i = 0; i < packet; i += V::count) {
+            const auto live = first_lanes<V>(packet - i);
             const auto lit = live && words_equal(load<U>(occluded + i), U(0u));
             const std::uint32_t at = first + i;
             if (any(lit))
@@ -180,8 +177,8 @@ ORRERY_INLINE void shadow_in_tree(const SphereTable<typename V::Real>& spheres,
 }
 
 template <class V>
-void shadow_tree(const SphereTable<typename V::Real>& spheres, const ShadowQueue<typename V::Real>& queue,
-                 std::uint32_t count, std::uint32_t target, const SlotTable<typename V::Real>& slots) {
+void shadow_tree(const Spheres<V>& spheres, const Shadows<V>& queue, std::uint32_t count, std::uint32_t target,
+                 const Slots<V>& slots) {
     with_target(queue, target,
                 [&](const auto& ends) ORRERY_INLINE_LAMBDA { shadow_in_tree<V>(spheres, queue, count, ends, slots); });
 }

@@ -1,8 +1,8 @@
 // Coherent rays and a tree: one cone goes down for all of them, and what spheres it finds they take in a loop.
 //
-// A bunch of camera rays meets a dozen spheres where every ray of it alone would visit the same nodes. A cone is tested
-// against sixteen boxes at a time, each as the ball around it; where it finds too many spheres or passes too many
-// nodes, the rays go down one by one as they would have (tree_cast.hpp), to the same hits.
+// A packet of camera rays meets a dozen spheres where every ray of it alone would visit the same nodes. A cone is
+// tested against sixteen boxes at a time, each as the ball around it; where it finds too many spheres or passes too
+// many nodes, the rays go down one by one as they would have (tree_cast.hpp), to the same hits.
 #pragma once
 
 #include "kernels/loop.hpp"
@@ -46,13 +46,13 @@ ORRERY_INLINE void put_in_order(SphereList<Real>& list) {
 
 /// Adds those spheres of a leaf that the cone meets. False where the list overflows.
 template <class V>
-ORRERY_INLINE bool collect_leaf(const SphereTable<typename V::Real>& spheres, const Cone<V>& cone, std::uint32_t first,
-                                SphereList<typename V::Real>& list) {
+ORRERY_INLINE bool collect_leaf(const Spheres<V>& spheres, const Cone<V>& cone, std::uint32_t first,
+                                SphereList<RealOf<V>>& list) {
     const std::uint32_t last = spheres.count - first < tree_width ? spheres.count : first + tree_width;
     for (std::uint32_t k = first; k < last; k += V::count) {
         const std::uint32_t live = last - k < V::count ? (1u << (last - k)) - 1 : ~0u;
         const auto centre = load3<V>(spheres.cx + k, spheres.cy + k, spheres.cz + k);
-        const std::uint32_t met = bits(cone.may_meet(centre, load<typename V::F>(spheres.radius + k))) & live;
+        const std::uint32_t met = bits(cone.may_meet(centre, load<Floats<V>>(spheres.radius + k))) & live;
         compress_store<V>(list.id + list.count, consecutive<V>(k), met);
         list.count += static_cast<std::uint32_t>(std::popcount(met));
         if (list.count > list.capacity) return false;
@@ -60,14 +60,13 @@ ORRERY_INLINE bool collect_leaf(const SphereTable<typename V::Real>& spheres, co
     return true;
 }
 
-/// Collects what spheres the bunch may meet. False where they are too many or too far apart in the tree.
+/// Collects what spheres the packet may meet. False where they are too many or too far apart in the tree.
 template <class V>
-ORRERY_INLINE bool collect(const SphereTable<typename V::Real>& spheres, const Bunch<typename V::Real>& bunch,
-                           SphereList<typename V::Real>& list) {
+ORRERY_INLINE bool collect(const Spheres<V>& spheres, const Packet<RealOf<V>>& packet, SphereList<RealOf<V>>& list) {
     using Real = typename V::Real;
-    using F = typename V::F;
+    using F = Floats<V>;
     constexpr std::uint32_t most_nodes = 24;
-    const Cone<V> cone(bunch);
+    const Cone<V> cone(packet);
     if (!cone.narrow) return false;
     const F rounding(spheres.tree.extent * Real(0x1p-22));
     std::uint32_t waiting[most_nodes + tree_width];
@@ -100,29 +99,27 @@ ORRERY_INLINE bool collect(const SphereTable<typename V::Real>& spheres, const B
 
 /// The same for rays that may run anywhere; false also where they are not alike.
 template <class V>
-ORRERY_INLINE bool collect(const SphereTable<typename V::Real>& spheres, const RaySpan<typename V::Real>& rays,
-                           SphereList<typename V::Real>& list) {
+ORRERY_INLINE bool collect(const Spheres<V>& spheres, const RaySpan<RealOf<V>>& rays, SphereList<RealOf<V>>& list) {
     return may_be_coherent(rays) && collect<V>(spheres, bound<V>(rays), list);
 }
 
 /// The least (t, id) of the list for every ray, as the tree has it: t is divided before it is compared.
 template <class V>
-ORRERY_INLINE void intersect_list(const SphereTable<typename V::Real>& spheres,
-                                  const SphereList<typename V::Real>& list, const RayQueue<typename V::Real>& rays,
-                                  std::uint32_t begin, std::uint32_t end, const HitQueue<typename V::Real>& hits) {
-    using F = typename V::F;
-    using U = typename V::U;
+ORRERY_INLINE void intersect_list(const Spheres<V>& spheres, const SphereList<RealOf<V>>& list, const Rays<V>& rays,
+                                  std::uint32_t begin, std::uint32_t end, const Hits<V>& hits) {
+    using F = Floats<V>;
+    using U = Words<V>;
     for (std::uint32_t i = begin; i < end; i += V::count) {
         const auto o = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
         const auto d = load3<V>(rays.dx + i, rays.dy + i, rays.dz + i);
-        const U left = choose(first_lanes<V>(end - i), load<U>(rays.left + i), U(no_sphere));
-        const U left_id = left & U(no_sphere);
-        F t(std::numeric_limits<typename V::Real>::infinity());
+        const U departed = choose(first_lanes<V>(end - i), load<U>(rays.departed + i), U(no_sphere));
+        const U departed_id = departed & U(no_sphere);
+        F t(std::numeric_limits<RealOf<V>>::infinity());
         U id(no_sphere);
-        put_inner_roots<V>(spheres, o, d, left, t, id);
+        put_inner_roots<V>(spheres, o, d, departed, t, id);
         list.each([&](std::uint32_t k) ORRERY_INLINE_LAMBDA {
             const auto line = chord(o, d, broadcast_sphere<V>(spheres, k));
-            const auto candidate = line.disc > F(0) && !words_equal(left_id, U(k));
+            const auto candidate = line.disc > F(0) && !words_equal(departed_id, U(k));
             if (!any(candidate)) return false;
             const auto first = first_root<V>(line, root(line.disc), FromOrigin{}, candidate);
             const F here = first.num / first.den;

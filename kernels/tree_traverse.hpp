@@ -1,9 +1,9 @@
-// A bunch of rays through the tree, node by node: a node is read once for all rays that reach it.
+// A packet of rays through the tree, node by node: a node is read once for all rays that reach it.
 //
 // One ray fills the vector with sixteen boxes, or with the sixteen spheres of a leaf, so the lanes are full however
 // little the rays agree, and the rays of a list are independent work that hides each other's latency. Which nodes a
 // ray reaches, and in which order, depends on nothing but itself: the children are ordered by octant and each ray's
-// boxes are its own. So its hit is the same whatever else is in the bunch.
+// boxes are its own. So its hit is the same whatever else is in the packet.
 #pragma once
 
 #include <bit>
@@ -13,7 +13,7 @@
 
 namespace orrery::kernels {
 
-// Rays as the tree wants them: a bunch of columns short enough for the first cache, each ray's slabs with the margin
+// Rays as the tree wants them: a packet of columns short enough for the first cache, each ray's slabs with the margin
 // that keeps rounding from losing a hit.
 
 /// A plane at x is crossed at t = x inverse + near or + far: near where the ray enters the slab, far where it leaves.
@@ -30,26 +30,26 @@ inline constexpr double slab_margin = 0x1p-19;
 inline constexpr double least_slope = 0x1p-40;
 inline constexpr double limit_margin = 1 + 0x1p-16;
 
-template <class Real, std::uint32_t capacity = bunch_size>
+template <class Real, std::uint32_t capacity = packet_size>
 struct alignas(64) TreeRays {
     using Word = WordOf<Real>;
     using Column = Real[capacity];
     Column inverse[3], near[3], far[3];
     Column limit;  ///< no hit beyond this is of interest, margin included; negative: none at all
     Column origin[3], direction[3];
-    Word octant[capacity];  ///< bit a is set where the ray runs down axis a
-    Word left[capacity];    ///< the sphere it is not to meet; no_sphere for none
+    Word octant[capacity];    ///< bit a is set where the ray runs down axis a
+    Word departed[capacity];  ///< the sphere it is not to meet; no_sphere for none
 };
 
 /// Fills lanes i.. of the columns. A ray that is not finite meets nothing, whatever its limit: to the boxes'
 /// comparisons it would meet all, also those of children that do not exist.
 template <class V, std::uint32_t capacity>
-ORRERY_INLINE void put_tree_rays(TreeRays<typename V::Real, capacity>& rays, std::uint32_t i,
-                                 const Vec3<typename V::F>& o, const Vec3<typename V::F>& d, const typename V::U& left,
-                                 typename V::Real extent, const typename V::F& limit) {
+ORRERY_INLINE void put_tree_rays(TreeRays<RealOf<V>, capacity>& rays, std::uint32_t i, const Vec3Of<V>& o,
+                                 const Vec3Of<V>& d, const Words<V>& departed, RealOf<V> extent,
+                                 const Floats<V>& limit) {
     using Real = typename V::Real;
-    using F = typename V::F;
-    using U = typename V::U;
+    using F = Floats<V>;
+    using U = Words<V>;
     const F reach = max(max(magnitude(o.x), magnitude(o.y)), max(magnitude(o.z), F(extent)));
     const F margin = reach * F(static_cast<Real>(slab_margin));
     const F zero(0), least(static_cast<Real>(least_slope));
@@ -70,7 +70,7 @@ ORRERY_INLINE void put_tree_rays(TreeRays<typename V::Real, capacity>& rays, std
         octant = octant | choose(down, U(1u << axis), U(0u));
     }
     save(rays.octant + i, octant);
-    save(rays.left + i, left);
+    save(rays.departed + i, departed);
     const F sum = o.x + o.y + o.z + (d.x + d.y + d.z);
     save(rays.limit + i, choose(sum - sum == zero, limit, F(-1)));
 }
@@ -83,11 +83,11 @@ struct TreeFrame {
     std::uint32_t begin, size;  ///< rays, in TreeStack's columns; a vector of guard behind them
 };
 
-/// Room for a path from the root to the deepest node, every ray of the bunch reaching it: 140 KB of stack for a whole
-/// bunch, of which an ordinary tree touches a tenth, and 4 KB for a single ray.
+/// Room for a path from the root to the deepest node, every ray of the packet reaching it: 140 KB of stack for a whole
+/// packet, of which an ordinary tree touches a tenth, and 4 KB for a single ray.
 template <class V, std::uint32_t capacity>
 struct TreeStack {
-    using Word = typename V::Word;
+    using Word = WordOf<RealOf<V>>;
     static constexpr std::uint32_t room = (tree_depth + 1) * (capacity + V::count);
     TreeFrame frame[tree_depth];
     Word ray[room];  ///< place in TreeRays
@@ -96,21 +96,21 @@ struct TreeStack {
 
 /// first, first + 1, ... in the lanes.
 template <class V>
-ORRERY_INLINE typename V::U consecutive(std::uint32_t first) {
+ORRERY_INLINE Words<V> consecutive(std::uint32_t first) {
     if constexpr (V::count == 1) {
         return first;
     } else {
-        return truncate_to_word(load<typename V::F>(detail::iota_table<typename V::Real>)) + typename V::U(first);
+        return truncate_to_word(load<Floats<V>>(detail::iota_table<RealOf<V>>)) + Words<V>(first);
     }
 }
 
 /// Writes for every ray of the list which children it meets before its limit, and none for a vector behind the last.
 /// Returns those any ray meets.
 template <class V, std::uint32_t capacity>
-ORRERY_INLINE std::uint32_t meet_children(const TreeNode<typename V::Real>& node,
-                                          const TreeRays<typename V::Real, capacity>& rays, std::uint32_t octant,
-                                          const typename V::Word* list, std::uint32_t size, typename V::Word* met) {
-    using F = typename V::F;
+ORRERY_INLINE std::uint32_t meet_children(const TreeNode<RealOf<V>>& node, const TreeRays<RealOf<V>, capacity>& rays,
+                                          std::uint32_t octant, const WordOf<RealOf<V>>* list, std::uint32_t size,
+                                          WordOf<RealOf<V>>* met) {
+    using F = Floats<V>;
     std::uint32_t some = 0;
     const auto* const near_x = node.bound[octant & 1u];
     const auto* const far_x = node.bound[~octant & 1u];
@@ -134,19 +134,18 @@ ORRERY_INLINE std::uint32_t meet_children(const TreeNode<typename V::Real>& node
             some |= here;
         }
     }
-    save(met + size, typename V::U(0u));
+    save(met + size, Words<V>(0u));
     return some;
 }
 
 /// Tests every ray of the list against the sixteen spheres from `first` on. Behind a shorter leaf those are others of
 /// the table, which can do no harm.
 template <class V, std::uint32_t capacity, class Meet>
-ORRERY_INLINE void meet_spheres(const SphereTable<typename V::Real>& spheres, std::uint32_t first,
-                                TreeRays<typename V::Real, capacity>& rays, const typename V::Word* list,
-                                std::uint32_t size, const Meet& meet) {
+ORRERY_INLINE void meet_spheres(const Spheres<V>& spheres, std::uint32_t first, TreeRays<RealOf<V>, capacity>& rays,
+                                const WordOf<RealOf<V>>* list, std::uint32_t size, const Meet& meet) {
     using Real = typename V::Real;
-    using F = typename V::F;
-    using U = typename V::U;
+    using F = Floats<V>;
+    using U = Words<V>;
     const std::uint32_t end = spheres.count - first < tree_width ? spheres.count : first + tree_width;
     for (std::uint32_t k = first; k < end; k += V::count) {
         const auto centre = load3<V>(spheres.cx + k, spheres.cy + k, spheres.cz + k);
@@ -159,7 +158,7 @@ ORRERY_INLINE void meet_spheres(const SphereTable<typename V::Real>& spheres, st
             const Vec3<F> o{F(rays.origin[0][r]), F(rays.origin[1][r]), F(rays.origin[2][r])};
             const Vec3<F> d{F(rays.direction[0][r]), F(rays.direction[1][r]), F(rays.direction[2][r])};
             const auto line = chord(o, d, Sphere<F>{centre, radius, radius2});
-            std::uint32_t hit = bits(line.disc > F(0) && !words_equal(id, U(rays.left[r]))) & live;
+            std::uint32_t hit = bits(line.disc > F(0) && !words_equal(id, U(rays.departed[r]))) & live;
             if (hit == 0) continue;
             alignas(64) Real b[V::count], c[V::count], disc[V::count];
             save(b, line.b), save(c, line.c), save(disc, line.disc);
@@ -175,9 +174,9 @@ ORRERY_INLINE void meet_spheres(const SphereTable<typename V::Real>& spheres, st
 /// The entries of `from` where the bits of `key` under `mask` are `wanted`: to `to`. Returns how many. No entry of key
 /// in the vector behind the last may fit.
 template <class V>
-ORRERY_INLINE std::uint32_t select(const typename V::Word* from, const typename V::Word* key, std::uint32_t size,
-                                   typename V::Word mask, typename V::Word wanted, typename V::Word* to) {
-    using U = typename V::U;
+ORRERY_INLINE std::uint32_t select(const WordOf<RealOf<V>>* from, const WordOf<RealOf<V>>* key, std::uint32_t size,
+                                   WordOf<RealOf<V>> mask, WordOf<RealOf<V>> wanted, WordOf<RealOf<V>>* to) {
+    using U = Words<V>;
     std::uint32_t chosen = 0;
     for (std::uint32_t i = 0; i < size; i += V::count) {
         const std::uint32_t lanes = bits(words_equal(load<U>(key + i) & U(mask), U(wanted)));
@@ -190,9 +189,9 @@ ORRERY_INLINE std::uint32_t select(const typename V::Word* from, const typename 
 /// Calls meet(ray, chord, sphere) for every sphere (and some in vain) whose line a ray may meet before its limit. meet
 /// lowers the limit.
 template <class V, std::uint32_t capacity, class Meet>
-ORRERY_INLINE void traverse(const SphereTable<typename V::Real>& spheres, TreeRays<typename V::Real, capacity>& rays,
-                            std::uint32_t count, TreeStack<V, capacity>& stack, const Meet& meet) {
-    using Word = typename V::Word;
+ORRERY_INLINE void traverse(const Spheres<V>& spheres, TreeRays<RealOf<V>, capacity>& rays, std::uint32_t count,
+                            TreeStack<V, capacity>& stack, const Meet& meet) {
+    using Word = WordOf<RealOf<V>>;
     const auto& tree = spheres.tree;
     alignas(64) Word places[capacity];
     for (std::uint32_t i = 0; i < count; i += V::count) save(places + i, consecutive<V>(i));

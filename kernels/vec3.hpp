@@ -10,6 +10,9 @@ struct Vec3 {
     F x, y, z;
 };
 
+template <class V>
+using Vec3Of = Vec3<typename V::F>;
+
 template <class F>
 ORRERY_INLINE Vec3<F> operator+(const Vec3<F>& a, const Vec3<F>& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -63,19 +66,18 @@ ORRERY_INLINE auto carries_nothing(const Vec3<F>& throughput) {
 }
 
 template <class V>
-ORRERY_INLINE Vec3<typename V::F> load3(const typename V::Real* x, const typename V::Real* y,
-                                        const typename V::Real* z) {
-    using F = typename V::F;
+ORRERY_INLINE Vec3Of<V> load3(const RealOf<V>* x, const RealOf<V>* y, const RealOf<V>* z) {
+    using F = Floats<V>;
     return {load<F>(x), load<F>(y), load<F>(z)};
 }
 template <class V>
-ORRERY_INLINE Vec3<typename V::F> lookup3(const typename V::Real* x, const typename V::Real* y,
-                                          const typename V::Real* z, const typename V::U& index, std::uint32_t size) {
-    using F = typename V::F;
+ORRERY_INLINE Vec3Of<V> lookup3(const RealOf<V>* x, const RealOf<V>* y, const RealOf<V>* z, const Words<V>& index,
+                                std::uint32_t size) {
+    using F = Floats<V>;
     return {lookup<F>(x, index, size), lookup<F>(y, index, size), lookup<F>(z, index, size)};
 }
 template <class V>
-ORRERY_INLINE void save3(typename V::Real* x, typename V::Real* y, typename V::Real* z, const Vec3<typename V::F>& v) {
+ORRERY_INLINE void save3(RealOf<V>* x, RealOf<V>* y, RealOf<V>* z, const Vec3Of<V>& v) {
     save(x, v.x);
     save(y, v.y);
     save(z, v.z);

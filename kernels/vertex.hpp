@@ -9,21 +9,20 @@ namespace orrery::kernels {
 
 template <class V>
 struct Vertex {
-    Vec3<typename V::F> position;  ///< on the sphere to the last bit the radius allows
-    Vec3<typename V::F> normal;    ///< unit length, on the side the ray arrived at
-    typename V::F cosine;          ///< of the arriving ray with the normal, in [0, 1]
-    typename V::U sphere;          ///< id without side
-    typename V::U side;            ///< inside_bit where the ray arrived from within, else 0
-    typename V::U material;
+    Vec3Of<V> position;  ///< on the sphere to the last bit the radius allows
+    Vec3Of<V> normal;    ///< unit length, on the side the ray arrived at
+    Floats<V> cosine;    ///< of the arriving ray with the normal, in [0, 1]
+    Words<V> sphere;     ///< id without side
+    Words<V> side;       ///< inside_bit where the ray arrived from within, else 0
+    Words<V> material;
 };
 
 /// `t` and `hit` as in HitQueue; dead lanes must carry the id of some sphere.
 template <class V>
-ORRERY_INLINE Vertex<V> vertex_at(const SphereTable<typename V::Real>& spheres, const Vec3<typename V::F>& origin,
-                                  const Vec3<typename V::F>& direction, const typename V::F& t,
-                                  const typename V::U& hit) {
-    using F = typename V::F;
-    using U = typename V::U;
+ORRERY_INLINE Vertex<V> vertex_at(const Spheres<V>& spheres, const Vec3Of<V>& origin, const Vec3Of<V>& direction,
+                                  const Floats<V>& t, const Words<V>& hit) {
+    using F = Floats<V>;
+    using U = Words<V>;
     const U id = hit & U(no_sphere);
     const auto sphere = gather_sphere<V>(spheres, id);
     // origin + t d is good to an ulp of t, which may be large against the radius: the normal is normalised for itself
@@ -44,18 +43,18 @@ ORRERY_INLINE Vertex<V> vertex_at(const SphereTable<typename V::Real>& spheres, 
 /// A vector of a run's rays where they arrive.
 template <class V>
 struct Arriving {
-    typename V::M live;  ///< in the run, and met something: an unsorted run holds its misses too
-    typename V::U slot;  ///< 0 outside the run
-    Vec3<typename V::F> direction;
+    Mask<V> live;   ///< in the run, and met something: an unsorted run holds its misses too
+    Words<V> slot;  ///< 0 outside the run
+    Vec3Of<V> direction;
     Vertex<V> vertex;
 };
 
 /// Rays i.. of a queue, of which the first `count` lanes belong to the run.
 template <class V>
-ORRERY_INLINE Arriving<V> arriving(const SphereTable<typename V::Real>& spheres, const RayQueue<typename V::Real>& rays,
-                                   const HitQueue<typename V::Real>& hits, std::uint32_t i, std::uint32_t count) {
-    using F = typename V::F;
-    using U = typename V::U;
+ORRERY_INLINE Arriving<V> arriving(const Spheres<V>& spheres, const Rays<V>& rays, const Hits<V>& hits, std::uint32_t i,
+                                   std::uint32_t count) {
+    using F = Floats<V>;
+    using U = Words<V>;
     const auto in_run = first_lanes<V>(count);
     const U met = load<U>(hits.id + i);
     const auto live = in_run && !words_equal(met, U(no_sphere));
@@ -74,8 +73,8 @@ struct RayKeys {
 };
 
 template <class V>
-ORRERY_INLINE typename V::U vertex_number(const typename V::Word* vertex, std::uint32_t i, std::uint32_t bounce) {
-    using U = typename V::U;
+ORRERY_INLINE Words<V> vertex_number(const WordOf<RealOf<V>>* vertex, std::uint32_t i, std::uint32_t bounce) {
+    using U = Words<V>;
     return vertex != nullptr ? load<U>(vertex + i) : U(bounce);
 }
 
@@ -83,9 +82,9 @@ ORRERY_INLINE typename V::U vertex_number(const typename V::Word* vertex, std::u
 /// are points of Sobol's sequences. In that loop the drawing would cost every stage registers, points or not: 2 % of
 /// a render of independent samples.
 template <class V, int dimensions>
-[[gnu::noinline]] void draw_points(const SlotTable<typename V::Real>& slots, const RayKeys<typename V::Real>& rays,
-                                   Range run, const RandomKey& key, std::uint32_t bounce) {
-    using U = typename V::U;
+[[gnu::noinline]] void draw_points(const Slots<V>& slots, const RayKeys<RealOf<V>>& rays, Range run,
+                                   const RandomKey& key, std::uint32_t bounce) {
+    using U = Words<V>;
     const auto& to = slots.points;
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
@@ -99,16 +98,16 @@ template <class V, int dimensions>
 }
 
 template <class V, int dimensions>
-ORRERY_INLINE void draw(const SlotTable<typename V::Real>& slots, const RayQueue<typename V::Real>& rays, Range run,
-                        const RandomKey& key, std::uint32_t bounce) {
+ORRERY_INLINE void draw(const Slots<V>& slots, const Rays<V>& rays, Range run, const RandomKey& key,
+                        std::uint32_t bounce) {
     if (slots.points.x != nullptr)
         draw_points<V, dimensions>(slots, {rays.pixel, rays.sample, rays.vertex}, run, key, bounce);
 }
 
 /// The numbers drawn for rays i.. of a queue.
 template <class V, int dimensions>
-ORRERY_INLINE RandomNumbers<typename V::F> drawn(const PointQueue<typename V::Real>& points, std::uint32_t i) {
-    using F = typename V::F;
+ORRERY_INLINE RandomNumbers<Floats<V>> drawn(const PointQueue<RealOf<V>>& points, std::uint32_t i) {
+    using F = Floats<V>;
     const F none(0);
     return {load<F>(points.x + i), dimensions > 1 ? load<F>(points.y + i) : none,
             dimensions > 2 ? load<F>(points.z + i) : none, dimensions > 3 ? load<F>(points.w + i) : none};
@@ -116,10 +115,9 @@ ORRERY_INLINE RandomNumbers<typename V::F> drawn(const PointQueue<typename V::Re
 
 /// The first `dimensions` random numbers of a block, others 0 or not, for rays i.. of a queue: those drawn if any were.
 template <class V, int dimensions>
-ORRERY_INLINE RandomNumbers<typename V::F> random_for(const SlotTable<typename V::Real>& slots,
-                                                      const RayQueue<typename V::Real>& rays, std::uint32_t i,
-                                                      const RandomKey& key, std::uint32_t bounce) {
-    using U = typename V::U;
+ORRERY_INLINE RandomNumbers<Floats<V>> random_for(const Slots<V>& slots, const Rays<V>& rays, std::uint32_t i,
+                                                  const RandomKey& key, std::uint32_t bounce) {
+    using U = Words<V>;
     if (slots.points.x != nullptr) [[unlikely]]
         return drawn<V, dimensions>(slots.points, i);
     return random_block<V>(key, load<U>(rays.pixel + i), load<U>(rays.sample + i),

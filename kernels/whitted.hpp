@@ -15,9 +15,9 @@ inline constexpr Real branch_cut = Real(1e-5);
 
 /// Kills the rays that have scattered `depth` times. Runs after `emission`.
 template <class V>
-void expire(std::uint32_t depth, std::uint32_t count, const RayQueue<typename V::Real>& rays) {
-    using F = typename V::F;
-    using U = typename V::U;
+void expire(std::uint32_t depth, std::uint32_t count, const Rays<V>& rays) {
+    using F = Floats<V>;
+    using U = Words<V>;
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const auto alive = words_equal(load<U>(rays.vertex + i) >> static_cast<int>(depth), U(0u));
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
@@ -29,12 +29,12 @@ void expire(std::uint32_t depth, std::uint32_t count, const RayQueue<typename V:
 /// Every ray of the run becomes the transmitted one, or the reflected one where reflection is total; what was reflected
 /// elsewhere goes onto the slot's stack.
 template <class V>
-void branch(const ScatterContext<typename V::Real>& context, Range run, const RayQueue<typename V::Real>& rays,
-            const HitQueue<typename V::Real>& hits, const BranchStack<typename V::Real>& stack) {
-    using F = typename V::F;
-    using U = typename V::U;
+void branch(const ScatterContext<RealOf<V>>& context, Range run, const Rays<V>& rays, const Hits<V>& hits,
+            const BranchStack<RealOf<V>>& stack) {
+    using F = Floats<V>;
+    using U = Words<V>;
     using Real = typename V::Real;
-    using Word = typename V::Word;
+    using Word = WordOf<RealOf<V>>;
     const U zero(0u);
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
@@ -61,31 +61,31 @@ void branch(const ScatterContext<typename V::Real>& context, Range run, const Ra
         const auto postponed = continues && !carries_nothing(mirrored);
         const Vec3<F> mirror = unit(reflected(in.direction, vertex.normal, vertex.cosine));
         const Vec3<F> through = refracted<V>(in.direction, vertex.normal, vertex.cosine, at);
-        const U mirror_left = vertex.sphere | vertex.side;
+        const U mirror_departed = vertex.sphere | vertex.side;
         const U node = load<U>(rays.vertex + i) << 1;
 
         save3<V>(rays.ox + i, rays.oy + i, rays.oz + i, vertex.position);
         save3<V>(rays.dx + i, rays.dy + i, rays.dz + i, choose(continues, through, mirror));
         save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(continues, transmitted, mirrored));
-        save(rays.left + i, choose(continues, mirror_left ^ U(inside_bit), mirror_left));
+        save(rays.departed + i, choose(continues, mirror_departed ^ U(inside_bit), mirror_departed));
         save(rays.vertex + i, choose(continues, node | U(1u), node));
 
-        alignas(64) Word slot_of[V::count], node_of[V::count], left_of[V::count];
+        alignas(64) Word slot_of[V::count], node_of[V::count], departed_of[V::count];
         alignas(64) Real numbers[9][V::count];
         save(slot_of, in.slot);
         save(node_of, node);
-        save(left_of, mirror_left);
+        save(departed_of, mirror_departed);
         save3<V>(numbers[0], numbers[1], numbers[2], vertex.position);
         save3<V>(numbers[3], numbers[4], numbers[5], mirror);
         save3<V>(numbers[6], numbers[7], numbers[8], mirrored);
-        for (std::uint32_t left = bits(postponed); left != 0; left &= left - 1) {
-            const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+        for (std::uint32_t rest = bits(postponed); rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
             const Word s = slot_of[lane];
             const std::size_t entry = std::size_t{stack.height[s]++} * stack.slots + s;
             Real* const to[9] = {stack.rays.ox, stack.rays.oy, stack.rays.oz, stack.rays.dx, stack.rays.dy,
                                  stack.rays.dz, stack.rays.tr, stack.rays.tg, stack.rays.tb};
             for (int f = 0; f < 9; ++f) to[f][entry] = numbers[f][lane];
-            stack.rays.left[entry] = left_of[lane];
+            stack.rays.departed[entry] = departed_of[lane];
             stack.rays.slot[entry] = s;
             stack.rays.vertex[entry] = node_of[lane];
         }
@@ -95,13 +95,13 @@ void branch(const ScatterContext<typename V::Real>& context, Range run, const Ra
 /// Appends to `rays` the topmost postponed branch of every slot without a live ray. `live` has an entry per slot, zero
 /// on entry and on return. Returns the new count.
 template <class V>
-std::uint32_t resume(const SlotTable<typename V::Real>& slots, const BranchStack<typename V::Real>& stack,
-                     std::uint32_t count, const RayQueue<typename V::Real>& rays, typename V::Word* live) {
+std::uint32_t resume(const Slots<V>& slots, const BranchStack<RealOf<V>>& stack, std::uint32_t count,
+                     const Rays<V>& rays, WordOf<RealOf<V>>* live) {
     for (std::uint32_t i = 0; i < count; ++i) live[rays.slot[i]] = 1;
     for (std::uint32_t s = 0; s < stack.slots; ++s) {
         if (live[s] == 0 && stack.height[s] != 0) {
             const std::size_t entry = std::size_t{--stack.height[s]} * stack.slots + s;
-            RayQueue<typename V::Real>::each_field([&](const char*, auto field) {
+            Rays<V>::each_field([&](const char*, auto field) {
                 if (stack.rays.*field != nullptr) (rays.*field)[count] = (stack.rays.*field)[entry];
             });
             rays.pixel[count] = slots.pixel[s];

@@ -1,7 +1,7 @@
 // The dozen operations the kernels use, over xsimd's batches and over plain scalars alike.
 //
 // What xsimd 8.1 leaves open and this layer closes: a fused multiply-add on AVX-512 (xsimd multiplies and adds, which
-// rounds twice), compress (compress.hpp), a mask's bits, words beside numbers (lane_words.hpp). SSE2 has no fused
+// rounds twice), compress (compress.hpp), a mask's bits, words beside numbers (words.hpp). SSE2 has no fused
 // multiply-add: there it rounds twice, which is why SSE2 images equal the others in expectation only.
 #pragma once
 
@@ -41,8 +41,8 @@ ORRERY_INLINE std::uint32_t bits(const xsimd::batch_bool<Real, Arch>& m) {
 }
 
 template <class V>
-ORRERY_INLINE typename V::M no_lane() {
-    return typename V::M(false);
+ORRERY_INLINE Mask<V> no_lane() {
+    return Mask<V>(false);
 }
 
 namespace detail {
@@ -53,9 +53,9 @@ inline constexpr Real iota_table[32] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  
 
 /// Lanes below n: the live part of a queue's last vector.
 template <class V>
-ORRERY_INLINE typename V::M first_lanes(std::uint32_t n) {
-    using Real = typename V::Real;
-    return load<typename V::F>(detail::iota_table<Real>) < typename V::F(static_cast<Real>(n));
+ORRERY_INLINE Mask<V> first_lanes(std::uint32_t n) {
+    using Real = RealOf<V>;
+    return load<Floats<V>>(detail::iota_table<Real>) < Floats<V>(static_cast<Real>(n));
 }
 
 // --- arithmetic ---------------------------------------------------------------------------------------------------

@@ -21,7 +21,8 @@ void push3(std::array<std::vector<Real>, size>& columns, std::size_t first, cons
     for (int c = 0; c < 3; ++c) columns[first + static_cast<std::size_t>(c)].push_back(static_cast<Real>(v[c]));
 }
 
-/// Boxes were rounded by the builder, in float; to a double's ray that is within the margin of kernels/tree_rays.hpp.
+/// Boxes were rounded by the builder, in float; to a double's ray that is within the margin of
+/// kernels/tree_traverse.hpp.
 kernels::TreeNode<double> widened(const kernels::TreeNode<float>& from) {
     kernels::TreeNode<double> to{};
     for (std::size_t side = 0; side < 6; ++side) std::ranges::copy(from.bound[side], to.bound[side]);

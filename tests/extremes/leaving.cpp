@@ -122,9 +122,10 @@ void leave(Errors& errors, Dice& dice, double reach, Neighbours neighbours) {
         const auto out = leaving<V>(world, ray, hit, way, eta, dice.direction());
         const auto next = cast<V, FromOrigin>(world.table(), out);
         errors.add(error_of_next(world, out, next), [&] {
-            std::string text = fmt::format(
-                "left {:x} at ({:a}, {:a}, {:a}) towards ({:a}, {:a}, {:a}), met {:x} at {:a};", out.left, out.origin.x,
-                out.origin.y, out.origin.z, out.direction.x, out.direction.y, out.direction.z, next.id, next.t);
+            std::string text =
+                fmt::format("left {:x} at ({:a}, {:a}, {:a}) towards ({:a}, {:a}, {:a}), met {:x} at {:a};",
+                            out.left, out.origin.x, out.origin.y, out.origin.z, out.direction.x, out.direction.y,
+                            out.direction.z, next.id, next.t);
             for (const auto& [c, r] : balls) text += fmt::format(" ({:a}, {:a}, {:a}) {:a}", c.x, c.y, c.z, r);
             return text;
         });

@@ -107,7 +107,7 @@ template <class V>
 void share_a_cone(Errors& errors, Dice& dice) {
     using Real = typename V::Real;
     using Word = typename V::Word;
-    constexpr std::uint32_t count = kernels::bunch_size;
+    constexpr std::uint32_t count = kernels::packet_size;
     const double reach = dice.scale(1e-4, 1e8), width = dice.scale(1e-7, 1);
     const Double3 eye = dice.direction() * (dice.coin() ? reach * dice.scale(1e-3, 1e3) : 0);
     const Double3 axis = dice.direction();
@@ -131,7 +131,7 @@ void share_a_cone(Errors& errors, Dice& dice) {
     kernels::RayQueue<Real> rays{};
     rays.ox = columns[0].data(), rays.oy = columns[1].data(), rays.oz = columns[2].data();
     rays.dx = columns[3].data(), rays.dy = columns[4].data(), rays.dz = columns[5].data();
-    rays.left = left.data();
+    rays.departed = left.data();
     for (const int culled : {0, 1}) {
         ids[culled].resize(count + 32), distances[culled].resize(count + 32);
         const kernels::HitQueue<Real> hits{distances[culled].data(), ids[culled].data()};

@@ -26,7 +26,7 @@ std::vector<Ball> balls_around(const glm::dvec3& place, std::uint32_t count, std
 /// The second is so far away that neighbouring floats are 1/128 apart.
 constexpr glm::dvec3 places[] = {{0, 0, 0}, {1e5, -1e5, 7e4}};
 
-/// A bunch of rays from about one place in about one direction: half of them past the very outline of some sphere,
+/// A packet of rays from about one place in about one direction: half of them past the very outline of some sphere,
 /// which float rounding may find on either side.
 struct Beam {
     double spread;  ///< of the origins
@@ -53,13 +53,13 @@ Ray ray_of(const Beam& beam, const Ball& target, const glm::dvec3& eye, Numbers&
     return {o, glm::normalize(outline + random.direction() * beam.angle)};
 }
 
-/// Rays as the stages take them together: every bunch is a beam from a place of its own past a ball of its own.
+/// Rays as the stages take them together: every packet is a beam from a place of its own past a ball of its own.
 class Bunches {
 public:
     Bunches(const std::vector<Ball>& balls, const glm::dvec3& place, const Beam& beam, Numbers& random)
         : balls_(balls), place_(place), beam_(beam), random_(random) {}
     const Ray& next() {
-        const bool first = count_++ % kernels::bunch_size == 0;
+        const bool first = count_++ % kernels::packet_size == 0;
         if (first) eye_ = place_ + random_.point(20), target_ = &balls_[random_.below(size())];
         if (first || beam_.angle > 0) ray_ = ray_of(beam_, *target_, eye_, random_);
         return ray_;
@@ -116,7 +116,7 @@ TEST_P(CoherentTest, MeetsWhatTheLoopMeets) {
 }
 
 // A ray that is no number meets nothing, and its neighbours what they would without it: it moves no bound, nor does it
-// make the bunch forget one ray that runs aside from all others.
+// make the packet forget one ray that runs aside from all others.
 TEST_P(CoherentTest, NeighboursOfNoNumberMeetWhatTheyMeet) {
     constexpr std::uint32_t count = 96;
     for (const std::uint32_t size : {40u, 300u}) {
@@ -149,7 +149,7 @@ TEST_P(CoherentTest, NeighboursOfNoNumberMeetWhatTheyMeet) {
     }
 }
 
-// Worlds large enough for a tree: in a bunch of alike rays as each alone, where nothing can be bounded together.
+// Worlds large enough for a tree: in a packet of alike rays as each alone, where nothing can be bounded together.
 TEST_P(CoherentTest, MeetsInATreeWhatEachRayMeetsAlone) {
     std::uint32_t met = 0, all = 0, ids_apart = 0;
     for (const glm::dvec3& place : places)
@@ -186,7 +186,7 @@ TEST_P(CoherentTest, MeetsInATreeWhatEachRayMeetsAlone) {
                     put3(queue->dx, queue->dy, queue->dz, i, direction_of(*rays, i));
                     put3(queue->r, queue->g, queue->b, i, glm::dvec3(1));
                     queue->inverse_t_max[i] = 1.0f / 30;
-                    queue->left[i] = rays->left[i], queue->slot[i] = i;
+                    queue->departed[i] = rays->departed[i], queue->slot[i] = i;
                 }
                 Slots slots(kernels::round_up(count));
                 for (std::uint32_t i = 0; i < 4 * count; ++i) slots->radiance[i] = 0;
@@ -197,7 +197,7 @@ TEST_P(CoherentTest, MeetsInATreeWhatEachRayMeetsAlone) {
                     put3(part->dx, part->dy, part->dz, 0, direction_of(*rays, i));
                     put3(part->r, part->g, part->b, 0, glm::dvec3(1));
                     part->inverse_t_max[0] = queue->inverse_t_max[i];
-                    part->left[0] = queue->left[i], part->slot[0] = 0;
+                    part->departed[0] = queue->departed[i], part->slot[0] = 0;
                     Slots one(kernels::widest);
                     for (int c = 0; c < 4; ++c) one->radiance[c] = 0;
                     stages.shadow_tree(world->spheres, *part, 1, 3, *one);
@@ -228,7 +228,7 @@ TEST_P(CoherentTest, IsShadowedByWhatTheLoopFinds) {
                     put3(queue->dx, queue->dy, queue->dz, i, ray.d);
                     put3(queue->r, queue->g, queue->b, i, glm::dvec3(1));
                     queue->inverse_t_max[i] = count == 33 ? 0 : narrow(1 / reach);
-                    queue->left[i] = i % 3 == 0 ? random.below(50) : no_sphere;
+                    queue->departed[i] = i % 3 == 0 ? random.below(50) : no_sphere;
                     queue->slot[i] = i;
                 }
                 Slots slots(kernels::round_up(count));
@@ -249,7 +249,7 @@ TEST(CandidatesTest, OfATreeAreListedInOrderOrAreTooMany) {
     std::vector<Ball> balls;
     for (int k = 0; k < 900; ++k) balls.push_back({{k % 30, k / 30, 10}, 0.4});
     const Planted world(balls);
-    kernels::Bunch<float> beam{{3, 3, 0}, {0, 0, 1}, 0.1f, 0.1f, std::numeric_limits<float>::infinity()};
+    kernels::Packet<float> beam{{3, 3, 0}, {0, 0, 1}, 0.1f, 0.1f, std::numeric_limits<float>::infinity()};
     kernels::SphereList<float> list;
     ASSERT_TRUE(kernels::collect<kernels::ScalarLanes<float>>(world->spheres, beam, list));
     ASSERT_EQ(list.count, 9u) << "the middle one and its neighbours, each once";
@@ -268,10 +268,10 @@ TEST(CandidatesTest, AreFewForANarrowBeamAndAllForAWideOne) {
     std::vector<Ball> balls;
     for (int k = 0; k < 64; ++k) balls.push_back({{k % 8, k / 8, 10}, 0.4});
     const World world(balls);
-    const kernels::Bunch<float> narrow_beam{{3, 3, 0}, {0, 0, 1}, 0.1f, 0.01f, std::numeric_limits<float>::infinity()};
+    const kernels::Packet<float> narrow_beam{{3, 3, 0}, {0, 0, 1}, 0.1f, 0.01f, std::numeric_limits<float>::infinity()};
     using One = kernels::ScalarLanes<float>;
     EXPECT_EQ(kernels::candidates<One>(world.spheres, narrow_beam).bits, std::uint64_t{1} << 27);
-    kernels::Bunch<float> wider = narrow_beam;
+    kernels::Packet<float> wider = narrow_beam;
     wider.deviation = 0.1f;  // reaches 1.1 at the lattice: the four neighbours as well, the diagonals at 1.41 too
     EXPECT_EQ(std::popcount(kernels::candidates<One>(world.spheres, wider).bits), 9);
     wider.t_max = 8;
@@ -302,7 +302,7 @@ TEST(CandidatesTest, AreAllWhereRaysRunApart) {
     EXPECT_EQ(of({0, 0, 1}, {3, 0, 0}, 0.1), 3u) << "far apart for their length";
 }
 
-// To the last bit, however the middle of the bunch is rounded.
+// To the last bit, however the middle of the packet is rounded.
 TEST(CandidatesTest, TheBoundHoldsEveryRay) {
     using One = kernels::ScalarLanes<float>;
     Numbers random(11);
@@ -312,14 +312,14 @@ TEST(CandidatesTest, TheBoundHoldsEveryRay) {
         Rays rays(kernels::widest);
         for (std::uint32_t k = 0; k < 32; ++k)
             put_ray(*rays, k, place + random.point(spread), ahead + random.point(angle));
-        const auto bunch = kernels::bound<One>(kernels::span_of(*rays, 0, kernels::widest));
-        const glm::dvec3 origin{bunch.origin.x, bunch.origin.y, bunch.origin.z};
-        const glm::dvec3 axis{bunch.axis.x, bunch.axis.y, bunch.axis.z};
+        const auto packet = kernels::bound<One>(kernels::span_of(*rays, 0, kernels::widest));
+        const glm::dvec3 origin{packet.origin.x, packet.origin.y, packet.origin.z};
+        const glm::dvec3 axis{packet.axis.x, packet.axis.y, packet.axis.z};
         for (std::uint32_t k = 0; k < 32; ++k) {
-            ASSERT_LE(glm::length(origin_of(*rays, k) - origin), bunch.spread);
-            ASSERT_LE(glm::length(direction_of(*rays, k) - axis), bunch.deviation);
+            ASSERT_LE(glm::length(origin_of(*rays, k) - origin), packet.spread);
+            ASSERT_LE(glm::length(direction_of(*rays, k) - axis), packet.deviation);
         }
-        ASSERT_LE(bunch.spread, 4 * spread + 1e-6 * glm::length(place)) << "no wider than it need be";
+        ASSERT_LE(packet.spread, 4 * spread + 1e-6 * glm::length(place)) << "no wider than it need be";
     }
 }
 
@@ -331,11 +331,11 @@ TEST(CandidatesTest, ErrOnTheSideOfYes) {
     for (int i = 0; i < 10000; ++i) {
         const glm::dvec3 axis = random.direction();
         const double deviation = random.scale(1e-6, 0.5), spread = random.scale(1e-6, 1), t = random.scale(1e-2, 1e4);
-        const kernels::Bunch<float> bunch{{0, 0, 0},
-                                          {narrow(axis.x), narrow(axis.y), narrow(axis.z)},
-                                          narrow(spread),
-                                          narrow(deviation),
-                                          std::numeric_limits<float>::infinity()};
+        const kernels::Packet<float> packet{{0, 0, 0},
+                                            {narrow(axis.x), narrow(axis.y), narrow(axis.z)},
+                                            narrow(spread),
+                                            narrow(deviation),
+                                            std::numeric_limits<float>::infinity()};
         const glm::dvec3 side = glm::normalize(glm::cross(axis, random.direction()));
         // The cone's outline rises by `deviation` per unit length, so what touches it from outside lies on the normal.
         const double radius = random.scale(1e-3, 1e3),
@@ -346,8 +346,8 @@ TEST(CandidatesTest, ErrOnTheSideOfYes) {
             return Ball{outline + normal * (radius * times), radius};
         };
         const World inner({touching(1 - 1e-7)}), outer({touching(1.01)});
-        ASSERT_EQ(kernels::candidates<One>(inner.spheres, bunch).bits, 1u) << deviation << " " << spread << " " << t;
-        beyond += kernels::candidates<One>(outer.spheres, bunch).bits == 0;
+        ASSERT_EQ(kernels::candidates<One>(inner.spheres, packet).bits, 1u) << deviation << " " << spread << " " << t;
+        beyond += kernels::candidates<One>(outer.spheres, packet).bits == 0;
     }
     EXPECT_GT(beyond, 5000u);
 }

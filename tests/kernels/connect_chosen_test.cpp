@@ -140,7 +140,7 @@ protected:
             if (with_targets) {
                 ASSERT_EQ(queue->target[at], choice.table.sphere[light]);
             }
-            ASSERT_EQ(queue->left[at], one->left[from]);
+            ASSERT_EQ(queue->departed[at], one->departed[from]);
             ASSERT_EQ(get3(queue->ox, queue->oy, queue->oz, at), get3(one->ox, one->oy, one->oz, from));
             ASSERT_EQ(get3(queue->dx, queue->dy, queue->dz, at), get3(one->dx, one->dy, one->dz, from));
             ASSERT_EQ(queue->inverse_t_max[at], one->inverse_t_max[from]);
@@ -202,10 +202,10 @@ TEST_P(ConnectChosenTest, LeavesTheRestToScattering) {
         Hits hits(capacity);
         for (std::uint32_t i = 0; i < size; ++i) {
             put_ray(*found, i, get3(whole->ox, whole->oy, whole->oz, i), get3(whole->dx, whole->dy, whole->dz, i),
-                    whole->left[i]);
-            const std::uint32_t id = whole->left[i] & no_sphere;
+                    whole->departed[i]);
+            const std::uint32_t id = whole->departed[i] & no_sphere;
             const glm::dvec3 outward = (origin_of(*found, i) - world.centre(id)) / world.radius(id);
-            const double cosine = glm::dot(direction_of(*found, i), outward) * (whole->left[i] == id ? 1 : -1);
+            const double cosine = glm::dot(direction_of(*found, i), outward) * (whole->departed[i] == id ? 1 : -1);
             found->pdf[i] = narrow(cosine / pi);
             hits->t[i] = 1 / whole->inverse_t_max[i];
             hits->id[i] = no_sphere;  // point lights, which nothing runs into
@@ -230,7 +230,8 @@ TEST_P(ConnectChosenTest, LeavesTheRestToScattering) {
             const Roots at = roots(origin_of(*found, i), direction_of(*found, i), world.centre(whole->target[i]),
                                    world.radius(whole->target[i]));
             const double half_chord = (at.far - at.near) / 2 / world.radius(whole->target[i]);
-            if (!at.real || half_chord < 0.05 || (hits->id[i] & no_sphere) == (whole->left[i] & no_sphere)) continue;
+            if (!at.real || half_chord < 0.05 || (hits->id[i] & no_sphere) == (whole->departed[i] & no_sphere))
+                continue;
             ASSERT_NEAR(share + static_cast<double>(slots->radiance[4 * i]) / emitted, 1, 2e-4) << "ray " << i;
             ++tested;
         }

@@ -57,8 +57,8 @@ protected:
     };
     Vertex vertex(const LitVertices& w, std::uint32_t i) const {
         Vertex v;
-        v.sphere = w.rays->left[i] & no_sphere;
-        v.inward = (w.rays->left[i] & inside_bit) != 0;
+        v.sphere = w.rays->departed[i] & no_sphere;
+        v.inward = (w.rays->departed[i] & inside_bit) != 0;
         v.p = origin_of(*w.rays, i);
         v.n = (v.p - world.centre(v.sphere)) / world.radius(v.sphere) * (v.inward ? -1.0 : 1.0);
         v.lobe = get3(w.lobes->x, w.lobes->y, w.lobes->z, i);
@@ -87,7 +87,7 @@ protected:
 
     /// Common to every entry: whose it is.
     static void expect_belongs(const Shadows& queue, std::uint32_t at, const LitVertices& w, std::uint32_t i) {
-        ASSERT_EQ(queue->left[at], w.rays->left[i]);
+        ASSERT_EQ(queue->departed[at], w.rays->departed[i]);
         ASSERT_EQ(get3(queue->ox, queue->oy, queue->oz, at), origin_of(*w.rays, i));
         ASSERT_NEAR(glm::length(get3(queue->dx, queue->dy, queue->dz, at)), 1, 4e-7);
     }

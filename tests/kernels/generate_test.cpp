@@ -76,7 +76,7 @@ protected:
             ASSERT_EQ(throughput_of(*rays, i), glm::dvec3(1));
             ASSERT_TRUE(rays->pdf == nullptr || rays->pdf[i] == std::numeric_limits<float>::infinity());
             ASSERT_TRUE(rays->eta_scale == nullptr || rays->eta_scale[i] == 1.0f);
-            ASSERT_EQ(rays->left[i], kernels::no_sphere);
+            ASSERT_EQ(rays->departed[i], kernels::no_sphere);
             ASSERT_EQ(rays->slot[i], i);
             ASSERT_EQ(rays->pixel[i], slots->pixel[i]);
             ASSERT_EQ(rays->sample[i], slots->sample[i]);

@@ -48,7 +48,7 @@ protected:
         const Hits hits = run(world, rays, count);
         std::uint32_t open = 0, met = 0;
         for (std::uint32_t i = 0; i < count; ++i) {
-            const Meeting wanted = meet(world, origin_of(*rays, i), direction_of(*rays, i), rays->left[i]);
+            const Meeting wanted = meet(world, origin_of(*rays, i), direction_of(*rays, i), rays->departed[i]);
             if (wanted.open) {
                 ++open;
                 continue;

@@ -88,7 +88,7 @@ TEST_P(IntersectTest, OutwardRaysNeverMeetTheirSphereAgain) {
         Rays rays(kernels::round_up(1001));
         for (std::uint32_t i = 0; i < 1001; ++i) {
             outward(i, *rays);
-            rays->left[i] = 0;
+            rays->departed[i] = 0;
         }
         const Hits hits = run(alone, rays, 1001);
         for (std::uint32_t i = 0; i < 1001; ++i) ASSERT_EQ(hits->id[i], no_sphere);

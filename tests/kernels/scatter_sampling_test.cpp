@@ -48,7 +48,8 @@ protected:
             stages.scatter[static_cast<std::size_t>(surface.kind)]({world.spheres, world.materials, *slots, 3, 1, true},
                                                                    {0, batch}, *rays, *hits, *lobes);
             for (std::uint32_t i = 0; i < batch; ++i)
-                visit(glm::normalize(direction_of(*rays, i)), rays->left[i] == (at.inside ? kernels::inside_bit : 0u));
+                visit(glm::normalize(direction_of(*rays, i)),
+                      rays->departed[i] == (at.inside ? kernels::inside_bit : 0u));
         }
     }
 };

@@ -131,10 +131,10 @@ protected:
                 e.factor = throughput_of(*after.rays, i) / throughput_of(*before.rays, i);
                 e.random = random_reference(seed, 1, before.rays->pixel[i], before.rays->sample[i], bounce);
                 ASSERT_NEAR(glm::length(e.leaving), 1, 4e-7);
-                ASSERT_EQ(after.rays->left[i] & no_sphere, e.sphere);
+                ASSERT_EQ(after.rays->departed[i] & no_sphere, e.sphere);
                 const bool leaves_same_side = glm::dot(e.leaving, e.normal) > 0;
                 if (std::abs(glm::dot(e.leaving, e.normal)) > 1e-5) {
-                    ASSERT_EQ(after.rays->left[i] & inside_bit, leaves_same_side ? e.side : e.side ^ inside_bit);
+                    ASSERT_EQ(after.rays->departed[i] & inside_bit, leaves_same_side ? e.side : e.side ^ inside_bit);
                 }
                 check(world, before, after, e);
             }

@@ -152,7 +152,7 @@ void run_with_stack(std::size_t bytes, const std::function<void()>& work) {
     pthread_attr_destroy(&attributes);
 }
 
-// A segment takes room for itself, not for a bunch of rays: it may be cast where stacks are small.
+// A segment takes room for itself, not for a packet of rays: it may be cast where stacks are small.
 TEST(SegmentScalar, ThroughATreeTakesLittleStack) {
     std::vector<Ball> balls;
     for (int i = 0; i < 1000; ++i) balls.push_back({glm::dvec3(i % 10, i / 10 % 10, i / 100) * 3.0, 1});

@@ -18,7 +18,7 @@ protected:
         put3(q->dx, q->dy, q->dz, i, glm::normalize(d));
         put3(q->r, q->g, q->b, i, light);
         q->inverse_t_max[i] = narrow(1 / t_max);
-        q->left[i] = left;
+        q->departed[i] = left;
         q->slot[i] = slot;
     }
     static Slots slots_of(std::uint32_t count) {
@@ -67,7 +67,7 @@ protected:
             const std::uint32_t slot = queue->slot[i];
             const Meeting met =
                 meet(world, get3(queue->ox, queue->oy, queue->oz, i), get3(queue->dx, queue->dy, queue->dz, i),
-                     queue->left[i], 0, 1 / static_cast<double>(queue->inverse_t_max[i]),
+                     queue->departed[i], 0, 1 / static_cast<double>(queue->inverse_t_max[i]),
                      queue->target != nullptr ? queue->target[i] : skip);
             if (met.open) unsure[slot] = true, ++open;
             if (met.id == no_sphere) wanted[slot] += get3(queue->r, queue->g, queue->b, i), ++lit;
@@ -120,10 +120,10 @@ TEST_P(ShadowTest, EverySegmentMayEndOnASphereOfItsOwn) {
         put_some(queue, count, world, random);
         std::uint32_t on_another = 0, on_its_own = 0;
         for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t own = queue->left[i] & no_sphere;
+            const std::uint32_t own = queue->departed[i] & no_sphere;
             const auto first_met = [&](std::uint32_t target) {
                 return meet(world, get3(queue->ox, queue->oy, queue->oz, i), get3(queue->dx, queue->dy, queue->dz, i),
-                            queue->left[i], 0, 1 / static_cast<double>(queue->inverse_t_max[i]), target)
+                            queue->departed[i], 0, 1 / static_cast<double>(queue->inverse_t_max[i]), target)
                            .id &
                        no_sphere;
             };

@@ -26,14 +26,14 @@ struct Nearest {
 Nearest nearest_of_all(const World& world, const RayView& rays, std::uint32_t i) {
     using One = kernels::ScalarLanes<float>;
     const kernels::Vec3<float> o{rays.ox[i], rays.oy[i], rays.oz[i]}, d{rays.dx[i], rays.dy[i], rays.dz[i]};
-    const std::uint32_t left = rays.left[i] & no_sphere;
+    const std::uint32_t left = rays.departed[i] & no_sphere;
     Nearest best;
     for (std::uint32_t k = 0; k < world.spheres.count; ++k) {
         const auto sphere = kernels::broadcast_sphere<One>(world.spheres, k);
         Nearest found;
         if (k == left) {
-            if (rays.left[i] == left) continue;
-            found = {kernels::inner_far_root(o, d, sphere), rays.left[i]};
+            if (rays.departed[i] == left) continue;
+            found = {kernels::inner_far_root(o, d, sphere), rays.departed[i]};
         } else {
             const auto line = kernels::chord(o, d, sphere);
             if (!(line.disc >= 0)) continue;
@@ -70,7 +70,7 @@ protected:
                 ASSERT_EQ(hits->t[i], wanted.t) << "ray " << i;
             }
             met += hits->id[i] != no_sphere;
-            const Meeting wanted = meet(world, origin_of(*rays, i), direction_of(*rays, i), rays->left[i]);
+            const Meeting wanted = meet(world, origin_of(*rays, i), direction_of(*rays, i), rays->departed[i]);
             if (wanted.open) continue;
             ASSERT_EQ(hits->id[i], wanted.id) << "ray " << i << ", t " << hits->t[i] << ", not " << wanted.t;
             if (wanted.id != no_sphere) {
@@ -193,7 +193,7 @@ TEST_P(TreeTest, ShadowsWhatTheLoopShadows) {
             put3(queue->dx, queue->dy, queue->dz, i, direction_of(*rays, i));
             put3(queue->r, queue->g, queue->b, i, random.colour());
             queue->inverse_t_max[i] = i % 7 == 0 ? 0 : narrow(1 / random.scale(0.1, 30));
-            queue->left[i] = rays->left[i];
+            queue->departed[i] = rays->departed[i];
             queue->slot[i] = i / 2;
         }
         const auto size = static_cast<std::uint32_t>(hard.balls.size());
@@ -202,7 +202,7 @@ TEST_P(TreeTest, ShadowsWhatTheLoopShadows) {
             if ((*queue).*field != nullptr) std::copy_n((*queue).*field, count, (*with_targets).*field);
         });
         for (std::uint32_t i = 0; i < count; ++i)
-            with_targets->target[i] = i % 3 == 0   ? queue->left[i] & no_sphere
+            with_targets->target[i] = i % 3 == 0   ? queue->departed[i] & no_sphere
                                       : i % 3 == 1 ? no_sphere
                                                    : random.below(size);
         for (const std::uint32_t skip : {no_sphere, 0u, 40u, own_target}) {

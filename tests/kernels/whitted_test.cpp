@@ -171,7 +171,7 @@ TEST_P(WhittedTest, BranchesAreFresnels) {
             ASSERT_TRUE(near(throughput_of(*out, i), continues ? through : mirrored)) << "ray " << i;
             if (throughput_of(*out, i) != glm::dvec3(0)) {
                 ASSERT_LT(glm::length(direction_of(*out, i) - (continues ? refract(d, n, eta) : mirror(d, n))), slack);
-                ASSERT_EQ(out->left[i], k | (continues ? side ^ inside_bit : side));
+                ASSERT_EQ(out->departed[i], k | (continues ? side ^ inside_bit : side));
                 ASSERT_EQ(out->vertex[i], 2 * rays->vertex[i] + (continues ? 1 : 0));
             }
             ASSERT_EQ(out_stack.view.height[slot], height + (both ? 1 : 0));
@@ -181,7 +181,7 @@ TEST_P(WhittedTest, BranchesAreFresnels) {
             ASSERT_EQ(origin_of(put_off, entry), p);
             ASSERT_LT(glm::length(direction_of(put_off, entry) - mirror(d, n)), slack);
             ASSERT_TRUE(near(throughput_of(put_off, entry), mirrored));
-            ASSERT_EQ(put_off.left[entry], k | side);
+            ASSERT_EQ(put_off.departed[entry], k | side);
             ASSERT_EQ(put_off.slot[entry], slot);
             ASSERT_EQ(put_off.vertex[entry], 2 * rays->vertex[i]);
         }
@@ -229,7 +229,7 @@ TEST_P(WhittedTest, ResumeTakesTheTopBranchOfEverySlotWithoutARay) {
                 put3(stack.rays->ox, stack.rays->oy, stack.rays->oz, entry, glm::dvec3(level, s, 1));
                 put3(stack.rays->dx, stack.rays->dy, stack.rays->dz, entry, glm::dvec3(0, 0, 1));
                 put3(stack.rays->tr, stack.rays->tg, stack.rays->tb, entry, glm::dvec3(0.5, level, s));
-                stack.rays->left[entry] = level + 10;
+                stack.rays->departed[entry] = level + 10;
                 stack.rays->slot[entry] = s;
                 stack.rays->vertex[entry] = 100 * level + s;
             }
@@ -254,7 +254,7 @@ TEST_P(WhittedTest, ResumeTakesTheTopBranchOfEverySlotWithoutARay) {
             EXPECT_EQ(rays->vertex[at], 100 * (height - 1) + s);
             EXPECT_EQ(origin_of(*rays, at), glm::dvec3(height - 1, s, 1));
             EXPECT_EQ(throughput_of(*rays, at), glm::dvec3(0.5, height - 1, s));
-            EXPECT_EQ(rays->left[at], height - 1 + 10);
+            EXPECT_EQ(rays->departed[at], height - 1 + 10);
             EXPECT_EQ(rays->slot[at], s);
             EXPECT_EQ(rays->pixel[at], 7 * s);
             EXPECT_EQ(rays->sample[at], s % 3);

@@ -1,6 +1,8 @@
 // Which light a vertex samples where it samples one of several: the alias table, the weights, and the kernels' columns.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <numbers>
 #include <numeric>
