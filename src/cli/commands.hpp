@@ -1,33 +1,27 @@
-// The commands of the program. Each returns an exit code; UsageError and other exceptions are for main to report.
+// The commands of the program, a file each.
 #pragma once
 
-#include <optional>
-
-#include "cli/arguments.hpp"
-#include "plan/plan.hpp"
+#include <CLI/CLI.hpp>
+#include <functional>
 
 namespace orrery {
 
+/// What a command does once its options have been read. Returns an exit code; UsageError and other exceptions are for
+/// main to report.
+using Work = std::function<int()>;
+
+// Each declares its options in `app` and returns its work.
+
 /// `orrery render`: scene -> images.
-int render_command(const Arguments& arguments);
+Work add_render(CLI::App& app);
 
 /// `orrery info`: scene -> what render would do, and why.
-int info_command(const Arguments& arguments);
+Work add_info(CLI::App& app);
 
 /// `orrery generate`: a kind of world -> a scene file.
-int generate_command(const Arguments& arguments);
+Work add_generate(CLI::App& app);
 
 /// `orrery compare`: two images -> how much they differ, and whether that is more than allowed.
-int compare_command(const Arguments& arguments);
-
-/// The scene with the command line's overrides, every diagnostic of the file printed. Empty where the scene has
-/// errors. Throws UsageError where the overrides do not fit it.
-std::optional<Scene> load_scene(const Arguments& arguments);
-
-/// The scene's plan. Where building its tree takes long, a terminal is told.
-Plan plan_visibly(const Arguments& arguments, Scene scene);
-
-/// Unless --quiet.
-void print_warnings(const Arguments& arguments, const Plan& plan);
+Work add_compare(CLI::App& app);
 
 }  // namespace orrery

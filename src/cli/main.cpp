@@ -1,34 +1,96 @@
-#include <new>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "cli/arguments.hpp"
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <new>
+#include <sstream>
+
 #include "cli/commands.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/signals.hpp"
-#include "cli/standard_streams.hpp"
+#include "cli/help.hpp"
+#include "cli/process.hpp"
+#include "scene/spelling.hpp"
 #include "system/memory.hpp"
+#include "system/printable.hpp"
 
 namespace orrery {
 namespace {
 
+struct Command {
+    const char* name;
+    const char* description;
+    Work (*add)(CLI::App&);
+};
+
+constexpr Command commands[] = {{"render", "Render a scene to an image", add_render},
+                                {"info", "Show how a scene would be rendered, and why so", add_info},
+                                {"generate", "Write a scene of as many spheres as you like", add_generate},
+                                {"compare", "Measure how much two images differ", add_compare}};
+constexpr const char* a_command = "a command, render, info, generate or compare";
+
+/// The words that nobody knows, and what they could have meant. Empty where there is none.
+std::string unknown_words(const CLI::App& app) {
+    const std::vector<std::string> words = app.remaining();
+    if (words.empty()) return "";
+    // A misspelt option's value may be taken for the scene, and the scene is then among the rest.
+    const auto option = std::ranges::find_if(words, [](const std::string& word) { return word.starts_with('-'); });
+    const std::string& word = option != words.end() ? *option : words.front();
+    std::vector<std::string> names;
+    if (option != words.end()) {
+        for (const CLI::Option* known : app.get_options()) {
+            for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
+            for (const std::string& name : known->get_snames()) names.push_back("-" + name);
+        }
+    } else {
+        for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const std::string_view near = Spelling().likely(word.substr(0, word.find('=')), known);
+    const char* const expected = option != words.end() ? "an option that --help names"
+                                 : names.empty()       ? "no further argument"
+                                                       : a_command;
+    return fmt::format("found {}, expected {}{}", in_quotes(word), expected,
+                       near.empty() ? "" : fmt::format("; did you mean {}?", near));
+}
+
+/// What is wrong with the command line.
+std::string fault_in(const CLI::App& app, const CLI::ParseError& error) {
+    const auto chosen = app.get_subcommands();
+    std::string fault = unknown_words(chosen.empty() ? app : *chosen.front());
+    // CLI11 says that a subcommand is required, not which there are.
+    if (fault.empty() && chosen.empty() && error.get_name() == "RequiredError")
+        fault = fmt::format("expected {}", a_command);
+    if (fault.empty()) fault = printable_whole(error.what());
+    const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
+    return fmt::format("orrery: error: {}\nTry: {}{} --help\n", fault, typed_command(), command);
+}
+
 int run(int argc, const char* const* argv) {
-    const auto read = read_arguments(argc, argv);
-    if (const auto* answer = std::get_if<Answer>(&read)) {
-        print_message(answer->error);
-        print_result(answer->output);
-        return answer->exit_code;
+    const std::string typed = typed_command();
+    CLI::App app("Renders worlds of spheres: a scene file in, an image out.", typed);
+    app.formatter(help_formatter(help_columns()));
+    app.set_version_flag("--version", fmt::format("orrery {}", version()), "Print the version");
+    app.set_help_flag("-h,--help", "Print this help");
+    app.require_subcommand(1);
+    app.footer(fmt::format("Help on a command:\n  {} render --help", typed));
+    std::vector<std::pair<const CLI::App*, Work>> works;
+    for (const Command& command : commands) {
+        CLI::App* const chosen = app.add_subcommand(command.name, command.description);
+        works.emplace_back(chosen, command.add(*chosen));
     }
-    const auto& arguments = std::get<Arguments>(read);
-    switch (arguments.command) {
-        case Command::render:
-            return render_command(arguments);
-        case Command::info:
-            return info_command(arguments);
-        case Command::generate:
-            return generate_command(arguments);
-        case Command::compare:
-            return compare_command(arguments);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0) {
+            print_message(fault_in(app, error));
+            return exit_code::misused;
+        }
+        std::ostringstream output, unused;
+        app.exit(error, output, unused);  // help or version
+        print_result(output.str());
+        return exit_code::done;
     }
-    return exit_code::misused;
+    return std::ranges::find_if(works, [](const auto& work) { return work.first->parsed(); })->second();
 }
 
 }  // namespace

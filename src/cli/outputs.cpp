@@ -6,7 +6,7 @@
 
 #include <set>
 
-#include "cli/exit_code.hpp"
+#include "cli/process.hpp"
 #include "image/atomic_file.hpp"
 #include "image/image_file.hpp"
 
@@ -61,9 +61,9 @@ void require_different_files(const std::vector<fs::path>& read, const std::vecto
     }
 }
 
-Outputs choose_outputs(const Arguments& arguments, const Scene& scene) {
+Outputs choose_outputs(const Request& request, const Scene& scene) {
     Outputs outputs;
-    outputs.images = arguments.outputs;
+    outputs.images = request.outputs;
     for (const fs::path& image : outputs.images) require_known_ending(image, "--output");
     if (outputs.images.empty()) {
         const fs::path& own = scene.settings.output;
@@ -72,15 +72,15 @@ Outputs choose_outputs(const Arguments& arguments, const Scene& scene) {
         require_known_ending(own, scene.file.string() + ":/scene/renderer/output");
         outputs.images.push_back(own);
     }
-    if (arguments.error_image) {
-        require_known_ending(*arguments.error_image, "--error-image");
-        require_linear(*arguments.error_image);
-        outputs.error_image = arguments.error_image;
+    if (request.error_image) {
+        require_known_ending(*request.error_image, "--error-image");
+        require_linear(*request.error_image);
+        outputs.error_image = request.error_image;
     }
-    if (arguments.stats == "-") {
+    if (request.stats == "-") {
         outputs.stats_to_standard_output = true;
-    } else if (arguments.stats) {
-        outputs.stats = *arguments.stats;
+    } else if (request.stats) {
+        outputs.stats = *request.stats;
     }
 
     std::vector<fs::path> written = outputs.images;

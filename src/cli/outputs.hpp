@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/arguments.hpp"
+#include "cli/request.hpp"
 #include "scene/scene.hpp"
 
 namespace orrery {
@@ -20,7 +20,7 @@ struct Outputs {
 
 /// What the command line names; without an image there, the scene's own. Throws UsageError where there is none, an
 /// ending is unknown or does not fit, or a file is named twice (as the scene, say). Touches nothing.
-Outputs choose_outputs(const Arguments& arguments, const Scene& scene);
+Outputs choose_outputs(const Request& request, const Scene& scene);
 
 /// Throws UsageError where two of `written` are one file, under whatever names, or one of them is also `read` or what
 /// standard output or error goes to.

@@ -1,11 +1,14 @@
-// How far the render is: a line on the terminal that is gone when the work is done.
+// What the program is at and how far: a line on the terminal that is gone when the work is done.
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <string>
+#include <thread>
 
 namespace orrery {
 
@@ -41,6 +44,20 @@ private:
     double error_ = std::numeric_limits<double>::infinity();
     std::size_t drawn_ = 0;  ///< characters on the terminal's line now
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Shows `text` on the terminal when its owner lives longer than a second, and takes it away with its owner. Silent
+/// where standard error is no terminal, or when it is not `wanted`.
+class LateNotice {
+public:
+    LateNotice(bool wanted, std::string text);
+
+private:
+    void wait_and_show(const std::stop_token& done, const std::string& text);
+
+    std::mutex mutex_;
+    std::condition_variable_any changed_;
+    std::jthread watch_;  ///< the last member: it ends before what it uses does
 };
 
 }  // namespace orrery

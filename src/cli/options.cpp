@@ -1,4 +1,4 @@
-#include "cli/values.hpp"
+#include "cli/options.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "cli/exit_code.hpp"
 #include "scene/settings.hpp"
 #include "system/printable.hpp"
 

@@ -1,16 +1,33 @@
-// Option values: text of the command line -> value, or a message that says what was expected.
+// How an option is declared, and how its value is read: text of the command line -> value, or a message that says what
+// was expected.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "cli/exit_code.hpp"
+#include "cli/process.hpp"
 #include "kernels/isa.hpp"
 
 namespace orrery {
+
+/// `read` takes the option's text; its UsageError gets the option's name in front. `label` stands for the value in the
+/// help.
+template <class Read>
+CLI::Option* add_option(CLI::App& app, const std::string& name, const std::string& label, const std::string& help,
+                        Read read) {
+    const auto named = [name, read](const std::string& text) {
+        try {
+            read(text);
+        } catch (const UsageError& error) {
+            throw CLI::ValidationError(name, error.what());
+        }
+    };
+    return app.add_option_function<std::string>(name, named, help)->type_name(label);
+}
 
 /// Whole numbers are decimal digits alone: no sign, no blanks, no 0x, nothing after them. Throws UsageError.
 std::uint32_t parse_integer(std::string_view text, std::uint32_t low, std::uint32_t high);

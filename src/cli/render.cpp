@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <span>
 #include <variant>
 
 #include "cli/commands.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/metadata.hpp"
+#include "cli/help.hpp"
+#include "cli/options.hpp"
 #include "cli/outputs.hpp"
-#include "cli/profile_table.hpp"
+#include "cli/process.hpp"
 #include "cli/progress.hpp"
-#include "cli/signals.hpp"
-#include "cli/standard_streams.hpp"
-#include "cli/statistics.hpp"
-#include "cli/summary.hpp"
+#include "cli/reports.hpp"
+#include "cli/request.hpp"
 #include "image/atomic_file.hpp"
 #include "scene/counted.hpp"
 #include "scene/image_memory.hpp"
@@ -23,6 +22,14 @@
 namespace orrery {
 namespace {
 
+constexpr const char* example =
+    "Example: a quick look, then the real thing in two formats\n"
+    "  {0} render scenes/assignment_08.json --size 256x256 --spp 16 -o look.png\n"
+    "  {0} render scenes/assignment_08.json --error 2% -o image.png -o image.exr\n"
+    "\n"
+    "Standard output names the images written, one on a line. Exit code: 0 written, 1 the work failed, 2 bad usage or "
+    "a bad scene.";
+
 namespace fs = std::filesystem;
 
 struct Stopped {
@@ -30,18 +37,17 @@ struct Stopped {
 };
 
 /// Renders under a progress bar until done or until a signal asks to stop.
-std::variant<RenderResult, Stopped> render_until_signal(const Plan& plan, const Arguments& arguments,
-                                                        const Goal& goal) {
+std::variant<RenderResult, Stopped> render_until_signal(const Plan& plan, const Request& request, const Goal& goal) {
     const Loss loss("orrery: interrupted: the render is lost, no image was written\n");
     const DeferredSignals signals;
-    std::optional<ProgressBar> bar(std::in_place, !arguments.quiet);
+    std::optional<ProgressBar> bar(std::in_place, !request.quiet);
     RenderOptions options;
-    options.threads = arguments.threads;
-    options.isa = arguments.isa;
-    options.wave_size = arguments.wave_size;
+    options.threads = request.threads;
+    options.isa = request.isa;
+    options.wave_size = request.wave_size;
     options.goal = goal;
     options.pass_done = [&](const ImageError& error) { bar->set_error(error.relative.value); };
-    options.standard_error = arguments.error_image.has_value();
+    options.standard_error = request.error_image.has_value();
     options.interrupted = [&] { return signals.caught() != 0; };
     if (bar->shows()) options.progress = [&](double fraction, std::uint64_t rays) { bar->update(fraction, rays); };
     try {
@@ -94,30 +100,28 @@ void write_stats(const Outputs& outputs, const std::string& json) {
     if (outputs.stats) write_atomically(*outputs.stats, std::as_bytes(std::span(json)));
 }
 
-}  // namespace
-
-int render_command(const Arguments& arguments) {
-    std::optional<Scene> scene = load_scene(arguments);
+int render_scene(const Request& request) {
+    std::optional<Scene> scene = load_scene(request);
     if (!scene) return exit_code::misused;
-    const Goal goal = goal_of(arguments);
+    const Goal goal = goal_of(request);
     if (goal.seconds > 0) {
         const auto fault =
             too_many_pixels(scene->settings.width, scene->settings.height, memory_limit(), timed_bytes_per_pixel);
         if (fault) throw UsageError("--time: " + *fault);
     }
-    const Outputs outputs = choose_outputs(arguments, *scene);
+    const Outputs outputs = choose_outputs(request, *scene);
     require_writable(outputs, *scene);
 
-    const Plan plan = plan_visibly(arguments, std::move(*scene));
-    print_warnings(arguments, plan);
-    if (!arguments.quiet) note_fewer_samples(plan, goal);
-    const auto outcome = render_until_signal(plan, arguments, goal);
+    const Plan plan = plan_visibly(request, std::move(*scene));
+    print_warnings(request, plan);
+    if (!request.quiet) note_fewer_samples(plan, goal);
+    const auto outcome = render_until_signal(plan, request, goal);
     if (const auto* stopped = std::get_if<Stopped>(&outcome)) return exit_code::ended_by(stopped->signal);
     const auto& result = std::get<RenderResult>(outcome);
     const RenderStats& stats = result.stats;
 
     const std::vector<fs::path> written = write_all(outputs, plan, result, goal);
-    if (!arguments.quiet) {
+    if (!request.quiet) {
         print_message(summary(plan, goal, stats));
         if (stats.dropped_samples > 0)
             print_warning(fmt::format("{} not finite and dropped", counted(stats.dropped_samples, "sample")));
@@ -125,13 +129,48 @@ int render_command(const Arguments& arguments) {
             print_warning(fmt::format("the system refused {} of {}; the others did the work", stats.refused_threads,
                                       counted(stats.refused_threads + stats.threads, "thread")));
     }
-    if (arguments.profile) print_message(profile_table(stats));
+    if (request.profile) print_message(profile_table(stats));
     // Where the statistics take standard output they name the images, and it stays one JSON document.
     if (!outputs.stats_to_standard_output)
         for (const fs::path& file : written) print_name(file);
     write_stats(outputs, statistics_json(plan, goal, stats, written));
     const std::size_t asked = outputs.images.size() + (outputs.error_image ? 1 : 0);
     return written.size() == asked ? exit_code::done : exit_code::failed;
+}
+
+void add_outputs(CLI::App& app, Request& request) {
+    add_option(app, "-o,--output", "FILE",
+               "Image to write: .ppm or .png (8 bit, tone mapped), .pfm or .exr (linear radiance); repeat it for more "
+               "(default: the scene's output)",
+               [&](const std::string& text) { request.outputs.emplace_back(text); })
+        // Each -o is read on its own: a list option of CLI11 would also swallow the SCENE after it.
+        ->trigger_on_parse()
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+        ->group("Image");
+}
+
+void add_reports(CLI::App& app, Request& request) {
+    add_option(app, "--error-image", "FILE", "Write every pixel's standard error, linear: .pfm or .exr",
+               [&](const std::string& text) { request.error_image = text; })
+        ->group("Reports");
+    add_option(app, "--stats", "FILE.json",
+               "Write times, ray counts, the image's error and the plan as JSON; - is standard output",
+               [&](const std::string& text) { request.stats = text; })
+        ->group("Reports");
+    app.add_flag("--profile", request.profile, "Print where the time went, by stage and bounce")->group("Reports");
+}
+
+}  // namespace
+
+Work add_render(CLI::App& app) {
+    const auto request = std::make_shared<Request>();
+    add_scene(app, *request);
+    add_outputs(app, *request);
+    add_settings(app, *request);
+    add_reports(app, *request);
+    add_quiet(app, request->quiet);
+    app.footer(fmt::format(example, typed_command()));
+    return [request] { return render_scene(*request); };
 }
 
 }  // namespace orrery

@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <memory>
 
 #include "cli/commands.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/standard_streams.hpp"
-#include "cli/values.hpp"
-#include "plan/plan.hpp"
+#include "cli/help.hpp"
+#include "cli/options.hpp"
+#include "cli/process.hpp"
+#include "cli/request.hpp"
 #include "scene/image_memory.hpp"
 #include "scene/settings.hpp"
 #include "system/printable.hpp"
@@ -14,6 +15,13 @@
 
 namespace orrery {
 namespace {
+
+constexpr const char* example =
+    "Prints what render would do with the same options: the settings, the memory, and which parts of the pipeline run "
+    "and why.\n"
+    "\n"
+    "Example:\n"
+    "  {0} info scenes/assignment_08.json --transport naive";
 
 std::string bytes_text(std::uint64_t bytes) {
     constexpr double mebi = 1024 * 1024;
@@ -44,13 +52,11 @@ std::string queues_text(const Plan& plan, std::uint32_t wave_size) {
     return text;
 }
 
-}  // namespace
-
-int info_command(const Arguments& arguments) {
-    std::optional<Scene> scene = load_scene(arguments);
+int info(const Request& request) {
+    std::optional<Scene> scene = load_scene(request);
     if (!scene) return exit_code::misused;
-    const Plan plan = plan_visibly(arguments, std::move(*scene));
-    print_warnings(arguments, plan);
+    const Plan plan = plan_visibly(request, std::move(*scene));
+    print_warnings(request, plan);
     const RenderSettings& settings = plan.settings();
     const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
 
@@ -60,12 +66,12 @@ int info_command(const Arguments& arguments) {
     };
     row("scene", plan.scene().file.string());
     row("output", settings.output.empty() ? "none named" : settings.output.string());
-    row("samples", samples_text(plan, goal_of(arguments)));
+    row("samples", samples_text(plan, goal_of(request)));
     for (const Setting& setting : all_settings())
         if (setting.matters(settings)) row(setting.option, text_of(setting, settings));
     row("film", bytes_text(pixels * bytes_per_pixel));
-    row("queues", queues_text(plan, arguments.wave_size));
-    row("isa", fmt::format("{} (this machine supports {})", isa_name(arguments.isa), supported_isas()));
+    row("queues", queues_text(plan, request.wave_size));
+    row("isa", fmt::format("{} (this machine supports {})", isa_name(request.isa), supported_isas()));
 
     text += "\nplan\n";
     for (const Decision& decision : plan.decisions()) {
@@ -74,6 +80,17 @@ int info_command(const Arguments& arguments) {
     }
     print_result(text);
     return exit_code::done;
+}
+
+}  // namespace
+
+Work add_info(CLI::App& app) {
+    const auto request = std::make_shared<Request>();
+    add_scene(app, *request);
+    add_settings(app, *request);
+    add_quiet(app, request->quiet);
+    app.footer(fmt::format(example, typed_command()));
+    return [request] { return info(*request); };
 }
 
 }  // namespace orrery

@@ -1,0 +1,45 @@
+// What a render tells of itself: on the terminal, in a file of statistics, and in its images.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "image/image_file.hpp"
+#include "plan/plan.hpp"
+#include "wavefront/goal.hpp"
+#include "wavefront/render.hpp"
+
+namespace orrery {
+
+/// "x.json: 512 x 512, 64 samples per pixel in 3.21 s, 80.1 Mrays/s (avx512, 2 threads), error 2.1 % (2.0 to 2.2)", and
+/// where there was a goal, whether it was reached.
+std::string summary(const Plan& plan, const Goal& goal, const RenderStats& stats);
+
+/// The profile as lines of text: a row per stage and bounce that ran, sums per stage, "others" last, so that the
+/// seconds add up to threads times wall time.
+std::string profile_table(const RenderStats& stats);
+
+/// `--stats`: an object with a newline at its end. `images` are the files written.
+std::string statistics_json(const Plan& plan, const Goal& goal, const RenderStats& stats,
+                            const std::vector<std::filesystem::path>& images);
+
+/// What a plan does not say about an image.
+struct Making {
+    Goal goal = {};
+    double samples = 0;                     ///< per pixel, the mean; 0: the plan's
+    std::string_view content = "radiance";  ///< what the pixels are; said where it is not this
+};
+
+/// Scene (the file's name, not the folders of somebody's machine), seed, samples, options and version. Nothing that
+/// threads, waves, the machine or the clock decide: the same seed gives the same bytes.
+/// The exception is a goal of time.
+Metadata image_metadata(const Plan& plan, ImageFormat format, const Making& making = {});
+
+/// Indented, with a newline at its end. In ASCII: names of files may hold what a terminal should not see, and need not
+/// be UTF-8, which JSON must be.
+std::string json_text(const nlohmann::ordered_json& json);
+
+}  // namespace orrery

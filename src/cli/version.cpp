@@ -1,7 +1,0 @@
-#include "cli/version.hpp"
-
-namespace orrery {
-
-std::string_view version() { return ORRERY_VERSION; }
-
-}  // namespace orrery
