@@ -36,15 +36,15 @@ void generate(const CameraTable<RealOf<V>>& camera, const Slots<V>& slots, std::
     using Word = WordOf<RealOf<V>>;
     const RandomKey key{seed, Dimension::camera, 0};
     constexpr int dimensions = has_lens ? 4 : 2;
-    const bool points = slots.points.x != nullptr;
-    if (points) draw_points<V, dimensions>(slots, {slots.pixel, slots.sample, nullptr}, {0, count}, key, 0);
+    const bool sobol = slots.sobol.x != nullptr;
+    if (sobol) draw_sobol<V, dimensions>(slots, {slots.pixel, slots.sample, nullptr}, {0, count}, key, 0);
     const U lane = truncate_to_word(load<F>(detail::iota_table<RealOf<V>>));
     const F zero(0), one(1);
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const U pixel = load<U>(slots.pixel + i);
         const U sample = load<U>(slots.sample + i);
         const auto random =
-            points ? drawn<V, dimensions>(slots.points, i) : random_block<V>(key, pixel, sample, U(Word{0}));
+            sobol ? drawn<V, dimensions>(slots.sobol, i) : random_block<V>(key, pixel, sample, U(Word{0}));
         const F x = mul_add(random.x, F(camera.cell_width), load<F>(slots.plane_x + i));
         const F y = mul_add(random.y, F(camera.cell_height), load<F>(slots.plane_y + i));
         Vec3<F> o, d;

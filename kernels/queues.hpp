@@ -103,14 +103,14 @@ struct ShadowQueue {
 
 /// Numbers in [0, 1) drawn for the rays of a queue ahead of the stage that uses them, in the same order.
 template <class Real>
-struct PointQueue {
+struct SobolQueue {
     using Word = WordOf<Real>;
     Real *x, *y, *z, *w;
 
     template <class Visit>
     ORRERY_INLINE static void each_field(Visit&& visit) {
-        visit("point_x", &PointQueue::x), visit("point_y", &PointQueue::y);
-        visit("point_z", &PointQueue::z), visit("point_w", &PointQueue::w);
+        visit("sobol_x", &SobolQueue::x), visit("sobol_y", &SobolQueue::y);
+        visit("sobol_z", &SobolQueue::z), visit("sobol_w", &SobolQueue::w);
     }
 };
 
@@ -119,10 +119,10 @@ template <class Real>
 struct SlotTable {
     using Word = WordOf<Real>;
     Word* pixel;              ///< y * width + x
-    Word* sample;             ///< sample number within the pixel; where there are `points`, bits reversed
+    Word* sample;             ///< sample number within the pixel; of Sobol's sequences with bits reversed
     Real *plane_x, *plane_y;  ///< corner of the sample's cell on the image plane at distance 1
     Real* radiance;           ///< gathered so far: r, g, b and one unused, four numbers per slot
-    PointQueue<Real> points;  ///< present where samples are points of Sobol's sequences
+    SobolQueue<Real> sobol;   ///< present where samples are those of Sobol's sequences
 
     template <class Visit>
     ORRERY_INLINE static void each_field(Visit&& visit) {

@@ -79,13 +79,13 @@ ORRERY_INLINE Words<V> vertex_number(const WordOf<RealOf<V>>* vertex, std::uint3
 }
 
 /// Draws the first `dimensions` numbers of a block for the rays of a run, before the stage's own loop, where samples
-/// are points of Sobol's sequences. In that loop the drawing would cost every stage registers, points or not: 2 % of
+/// are those of Sobol's sequences. In that loop the drawing would cost every stage registers, needed or not: 2 % of
 /// a render of independent samples.
 template <class V, int dimensions>
-[[gnu::noinline]] void draw_points(const Slots<V>& slots, const RayKeys<RealOf<V>>& rays, Range run,
-                                   const RandomKey& key, std::uint32_t bounce) {
+[[gnu::noinline]] void draw_sobol(const Slots<V>& slots, const RayKeys<RealOf<V>>& rays, Range run,
+                                  const RandomKey& key, std::uint32_t bounce) {
     using U = Words<V>;
-    const auto& to = slots.points;
+    const auto& to = slots.sobol;
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
         const auto point = sobol_block<V>(key, load<U>(rays.pixel + i), load<U>(rays.sample + i),
@@ -100,17 +100,17 @@ template <class V, int dimensions>
 template <class V, int dimensions>
 ORRERY_INLINE void draw(const Slots<V>& slots, const Rays<V>& rays, Range run, const RandomKey& key,
                         std::uint32_t bounce) {
-    if (slots.points.x != nullptr)
-        draw_points<V, dimensions>(slots, {rays.pixel, rays.sample, rays.vertex}, run, key, bounce);
+    if (slots.sobol.x != nullptr)
+        draw_sobol<V, dimensions>(slots, {rays.pixel, rays.sample, rays.vertex}, run, key, bounce);
 }
 
 /// The numbers drawn for rays i.. of a queue.
 template <class V, int dimensions>
-ORRERY_INLINE RandomNumbers<Floats<V>> drawn(const PointQueue<RealOf<V>>& points, std::uint32_t i) {
+ORRERY_INLINE RandomNumbers<Floats<V>> drawn(const SobolQueue<RealOf<V>>& sobol, std::uint32_t i) {
     using F = Floats<V>;
     const F none(0);
-    return {load<F>(points.x + i), dimensions > 1 ? load<F>(points.y + i) : none,
-            dimensions > 2 ? load<F>(points.z + i) : none, dimensions > 3 ? load<F>(points.w + i) : none};
+    return {load<F>(sobol.x + i), dimensions > 1 ? load<F>(sobol.y + i) : none,
+            dimensions > 2 ? load<F>(sobol.z + i) : none, dimensions > 3 ? load<F>(sobol.w + i) : none};
 }
 
 /// The first `dimensions` random numbers of a block, others 0 or not, for rays i.. of a queue: those drawn if any were.
@@ -118,8 +118,8 @@ template <class V, int dimensions>
 ORRERY_INLINE RandomNumbers<Floats<V>> random_for(const Slots<V>& slots, const Rays<V>& rays, std::uint32_t i,
                                                   const RandomKey& key, std::uint32_t bounce) {
     using U = Words<V>;
-    if (slots.points.x != nullptr) [[unlikely]]
-        return drawn<V, dimensions>(slots.points, i);
+    if (slots.sobol.x != nullptr) [[unlikely]]
+        return drawn<V, dimensions>(slots.sobol, i);
     return random_block<V>(key, load<U>(rays.pixel + i), load<U>(rays.sample + i),
                            vertex_number<V>(rays.vertex, i, bounce));
 }

@@ -43,8 +43,8 @@ std::vector<Decision> Plan::decisions() const {
                      : fmt::format("{}: they are sooner tested", counted(scene_.primitives.size(), "sphere")));
     decide("generate: lens", n.lens,
            n.lens ? fmt::format("aperture {}", scene_.camera.aperture) : "the camera is a pinhole");
-    decide("random numbers: points", n.points,
-           n.points ? "two Sobol' sequences for every decision of a pixel" : "numbers are drawn independently");
+    decide("random numbers: sobol", n.sobol,
+           n.sobol ? "two Sobol' sequences for every decision of a pixel" : "numbers are drawn independently");
     if (n.integrator == Integrator::depth) {
         decide("shade, shadow, roulette", false, "DEPTH stops after intersect");
         return list;

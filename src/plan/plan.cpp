@@ -99,7 +99,7 @@ void Plan::plan_needs() {
     const auto dielectric = present([](const ScatteringTraits& t) { return t.is_interface; });
     needs_.integrator = s.integrator;
     needs_.lens = scene_.camera.aperture > 0;
-    needs_.points = s.estimator == Estimator::sobol;
+    needs_.sobol = s.estimator == Estimator::sobol;
     if (s.integrator == Integrator::depth) {
         needs_.scattering = 0;
         return;

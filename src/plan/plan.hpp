@@ -20,7 +20,7 @@ struct Needs {
     bool tree = false;                ///< many spheres: rays go through a tree
     bool packets = false;             ///< of rays that run alike: spheres they cannot meet are left out for all of them
     bool lens = false;                ///< sample the aperture
-    bool points = false;              ///< samples are points of Sobol's sequences, drawn ahead of the stages
+    bool sobol = false;               ///< samples are those of Sobol's sequences, drawn ahead of the stages
     std::uint32_t scattering = 0;     ///< bit k: some surface scatters as kernels::Scattering k
     bool sort = false;                ///< more than one kind: hits are sorted by it
     bool emitters = false;            ///< rays can run into an emitter

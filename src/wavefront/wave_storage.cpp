@@ -58,13 +58,13 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
     carver.field(slots.plane_x, padded);
     carver.field(slots.plane_y, padded);
     carver.field(slots.radiance, std::size_t{4} * padded);
-    if (needs.points) {
+    if (needs.sobol) {
         const bool four = needs.lens || needs.one_light;
         const auto drawing_three = kernels::scattering_where([](const auto& traits) { return traits.dimensions > 2; });
-        carver.field(slots.points.x, capacity);
-        carver.field(slots.points.y, capacity);
-        if (four || (needs.scattering & drawing_three) != 0) carver.field(slots.points.z, capacity);
-        if (four) carver.field(slots.points.w, capacity);
+        carver.field(slots.sobol.x, capacity);
+        carver.field(slots.sobol.y, capacity);
+        if (four || (needs.scattering & drawing_three) != 0) carver.field(slots.sobol.z, capacity);
+        if (four) carver.field(slots.sobol.w, capacity);
     }
     ray_fields(rays, capacity);
     carver.queue(hits, capacity);

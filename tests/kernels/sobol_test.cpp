@@ -67,7 +67,7 @@ TEST_P(SobolTest, BlocksEqualTheReferenceToTheBit) {
     }
 }
 
-using Points = Owned<kernels::PointQueue<float>>;
+using Points = Owned<kernels::SobolQueue<float>>;
 
 /// Item i of a block's first words, as the stages draw them.
 void expect_drawn(const Points& points, std::uint32_t i, const std::array<std::uint32_t, 4>& words, int dimensions) {
@@ -82,7 +82,7 @@ TEST_P(SobolTest, CameraRaysTakeTheirSlotsPoints) {
     Slots slots(capacity);
     Points points(capacity);
     kernels::SlotTable<float> table = *slots;
-    table.points = *points;
+    table.sobol = *points;
     for (std::uint32_t i = 0; i < count; ++i) slots->pixel[i] = i / 6, slots->sample[i] = reversed_reference(i % 6);
     for (std::uint32_t i = 0; i < count; ++i) slots->plane_x[i] = slots->plane_y[i] = 0;
     kernels::CameraTable<float> camera{};
@@ -104,7 +104,7 @@ TEST_P(SobolTest, RaysOfARunTakeThePointsOfTheirVertex) {
         Slots slots(capacity);
         Points points(capacity);
         kernels::SlotTable<float> table = *slots;
-        table.points = *points;
+        table.sobol = *points;
         std::vector<std::uint32_t> slot_of(capacity);
         for (std::uint32_t i = begin; i < begin + count; ++i) {
             put3(rays->tr, rays->tg, rays->tb, i, glm::dvec3(0.5));
