@@ -77,24 +77,23 @@ ORRERY_INLINE Words<V> choose_light(const Lights<V>& lights, const Floats<V>& z,
 /// A point of the sphere `id`, sampled from the vertex: from outside or from within, or from its own inner side. From
 /// its own outer side nothing of it is seen. (By reference: what is returned g++ 12 moves through memory, a sixth of
 /// all instructions of connect_area on AVX2.)
-template <class V>
-ORRERY_INLINE void sample_sphere(LightStrategy strategy, const LitVertex<V>& vertex, const Sphere<Floats<V>>& sphere,
-                                 const Words<V>& id, const RandomNumbers<Floats<V>>& random, LightSample<V>& sample) {
+template <class V, LightStrategy strategy>
+ORRERY_INLINE void sample_sphere(const LitVertex<V>& vertex, const Sphere<Floats<V>>& sphere, const Words<V>& id,
+                                 const RandomNumbers<Floats<V>>& random, LightSample<V>& sample) {
     using F = Floats<V>;
     // On the light itself its side is known; elsewhere the power of the point tells, as it tells `first_root` where a
     // ray meets the light: from a point on its surface (0) only from within.
     const auto own = words_equal(vertex.sphere, id);
     const auto within = power_of_point(vertex.position - sphere.centre, sphere.radius2) <= F(0);
     const auto inside = (own && vertex.inward) || (!own && within);
-    const bool cone = strategy == LightStrategy::cone;
-    if (cone) sample = sample_light_cone<V>(vertex.position, sphere, random.x, random.y);
-    if (!cone || any(inside)) {
-        const auto by_area = sample_light_area<V>(vertex.position, sphere, inside, random.x, random.y);
-        if (cone) {
+    if constexpr (strategy == LightStrategy::cone) {
+        sample = sample_light_cone<V>(vertex.position, sphere, random.x, random.y);
+        if (any(inside)) {
+            const auto by_area = sample_light_area<V>(vertex.position, sphere, inside, random.x, random.y);
             replace(sample, inside, by_area);
-        } else {
-            sample = by_area;
         }
+    } else {
+        sample = sample_light_area<V>(vertex.position, sphere, inside, random.x, random.y);
     }
     sample.valid = sample.valid && (inside || !own);
 }
@@ -110,20 +109,80 @@ ORRERY_INLINE F shared_ratio(const F& ratio) {
 
 /// What the vertices of a run aim at: a point or a sphere that is the same for all, or each at a light of its choice.
 enum class Aim { point, sphere, chosen };
+/// How many random numbers that takes.
+constexpr int dimensions_of(Aim aim) { return aim == Aim::point ? 0 : aim == Aim::sphere ? 2 : 4; }
 
-/// The vertices of a run towards `light`, a vector at a time. What arrives is the density of scattering over that of
-/// light sampling, weighed against scattering by the balance heuristic where the two compete; of a point its inverse
-/// square.
-template <class V, Response response, Aim aim>
+/// What a light sample brings to a vertex.
+template <class V>
+struct Arrival {
+    Vec3Of<V> direction;  ///< unit length, towards the light
+    Floats<V> inverse_distance;
+    Floats<V> factor;  ///< of the light's colour, surface weight excluded
+    Mask<V> arrives;   ///< also where the factor is no number: the film counts it
+    Words<V> chosen;   ///< light, where each vertex chooses
+};
+
+/// What a column says of the light: that of all vertices, or the one that each chose.
+template <class V, Aim aim, class Element>
+ORRERY_INLINE auto entry(const Element* column, std::uint32_t light, const Words<V>& chosen, std::uint32_t count) {
+    using T = std::conditional_t<std::is_floating_point_v<Element>, Floats<V>, Words<V>>;
+    if constexpr (aim == Aim::chosen) return lookup<T>(column, chosen, count);
+    if constexpr (aim != Aim::chosen) return T(column[light]);
+}
+
+/// Samples the light from a vector of vertices. The factor is the density of scattering over that of light sampling,
+/// weighed against scattering by the balance heuristic where the two compete; for a point the inverse square takes the
+/// place of the latter. (A function of its own: in the loop g++ 12 would keep a twelfth more of it in memory on AVX2.)
+template <class V, Response response, Aim aim, LightStrategy strategy>
+ORRERY_INLINE Arrival<V> sample_light(const ConnectContext<RealOf<V>>& context, std::uint32_t light,
+                                      const Rays<V>& rays, const Lobes<V>& lobes, const LitVertex<V>& vertex,
+                                      const RandomKey& key) {
+    using F = Floats<V>;
+    const auto& lights = context.lights;
+    Words<V> chosen(0u);
+    RandomNumbers<F> random{};
+    if constexpr (dimensions_of(aim) > 0)
+        random = random_for<V, dimensions_of(aim)>(context.slots, rays, vertex.i, key, context.bounce);
+    if constexpr (aim == Aim::chosen) chosen = choose_light<V>(lights, random.z, random.w);
+    const auto of = [&](const auto* column)
+                        ORRERY_INLINE_LAMBDA { return entry<V, aim>(column, light, chosen, lights.count); };
+    const F radius = of(lights.radius);
+    const Sphere<F> source{{of(lights.px), of(lights.py), of(lights.pz)}, radius, radius * radius};
+    const auto is_sphere = radius > F(0);
+    LightSample<V> sample;
+    if constexpr (aim == Aim::sphere) {
+        sample_sphere<V, strategy>(vertex, source, of(lights.sphere), random, sample);
+    } else {
+        sample = sample_point<V>(vertex.position, source.centre);
+    }
+    if constexpr (aim == Aim::chosen) {
+        if (any(is_sphere)) {
+            LightSample<V> on;
+            sample_sphere<V, strategy>(vertex, source, of(lights.sphere), random, on);
+            replace(sample, is_sphere, on);
+        }
+    }
+    const F pdf = response_pdf<V, response>(context, lobes, vertex, sample.direction);
+    F ratio = pdf * sample.inverse_pdf;
+    if constexpr (aim == Aim::point) ratio = pdf * sample.inverse_distance * sample.inverse_distance;
+    if constexpr (aim == Aim::chosen) ratio = ratio * of(lights.inverse_probability);
+    if (aim != Aim::point && context.competing) {
+        const F shared = shared_ratio(ratio);
+        ratio = aim == Aim::sphere ? shared : choose(is_sphere, shared, ratio);
+    }
+    return {sample.direction, sample.inverse_distance, ratio, sample.valid && !(ratio <= F(0)), chosen};
+}
+
+/// The vertices of a run towards `light`, a vector at a time.
+template <class V, Response response, Aim aim, LightStrategy strategy>
 ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<RealOf<V>>& context, std::uint32_t light, Range run,
                                         const Rays<V>& rays, const Lobes<V>& lobes, const Shadows<V>& queue) {
     using F = Floats<V>;
     using U = Words<V>;
     const auto& spheres = context.spheres;
     const auto& lights = context.lights;
-    constexpr int dimensions = aim == Aim::point ? 0 : aim == Aim::sphere ? 2 : 4;
     const RandomKey key{context.seed, Dimension::light, aim == Aim::sphere ? light - lights.points : 0};
-    if constexpr (dimensions > 0) draw<V, dimensions>(context.slots, rays, run, key, context.bounce);
+    if constexpr (dimensions_of(aim) > 0) draw<V, dimensions_of(aim)>(context.slots, rays, run, key, context.bounce);
     std::uint32_t size = 0;
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
@@ -135,68 +194,41 @@ ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<RealOf<V>>& context
         const auto p = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
         const auto centre = lookup3<V>(spheres.cx, spheres.cy, spheres.cz, id, spheres.count);
         const Vec3<F> outward = (p - centre) * lookup<F>(spheres.inverse_radius, id, spheres.count);
-        const LitVertex<V> vertex{i, p, choose(inward, outward * F(-1), outward), id, inward};
-
-        RandomNumbers<F> random{};
-        if constexpr (dimensions > 0) random = random_for<V, dimensions>(context.slots, rays, i, key, context.bounce);
-        U chosen_one(0u);
-        if constexpr (aim == Aim::chosen) chosen_one = choose_light<V>(lights, random.z, random.w);
-        const auto of = [&]<class Element>(const Element* column) ORRERY_INLINE_LAMBDA {
-            using T = std::conditional_t<std::is_floating_point_v<Element>, F, U>;
-            if constexpr (aim == Aim::chosen) {
-                return lookup<T>(column, chosen_one, lights.count);
-            } else {
-                return T(column[light]);
-            }
-        };
-        const F radius = of(lights.radius);
-        const Sphere<F> source{{of(lights.px), of(lights.py), of(lights.pz)}, radius, radius * radius};
-        const auto is_sphere = radius > F(0);
-        LightSample<V> sample;
-        if constexpr (aim == Aim::sphere) {
-            sample_sphere<V>(context.strategy, vertex, source, of(lights.sphere), random, sample);
-        } else {
-            sample = sample_point<V>(p, source.centre);
-        }
-        if constexpr (aim == Aim::chosen) {
-            if (any(is_sphere)) {
-                LightSample<V> on;
-                sample_sphere<V>(context.strategy, vertex, source, of(lights.sphere), random, on);
-                replace(sample, is_sphere, on);
-            }
-        }
-        const F pdf = response_pdf<V, response>(context, lobes, vertex, sample.direction);
-        F ratio = pdf * sample.inverse_pdf;
-        if constexpr (aim == Aim::point) ratio = pdf * sample.inverse_distance * sample.inverse_distance;
-        if constexpr (aim == Aim::chosen) ratio = ratio * of(lights.inverse_probability);
-        if (aim != Aim::point && context.competing) {
-            const F shared = shared_ratio(ratio);
-            ratio = aim == Aim::sphere ? shared : choose(is_sphere, shared, ratio);
-        }
-
-        // Also where the ratio is no number: the film counts it.
-        const auto arrives = sample.valid && !(ratio <= F(0));
+        const Vec3<F> normal = choose(inward, outward * F(-1), outward);
+        const auto sample = sample_light<V, response, aim, strategy>(context, light, rays, lobes,
+                                                                     LitVertex<V>{i, p, normal, id, inward}, key);
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
-        const std::uint32_t chosen = bits(arrives && in_run && !carries_nothing(throughput));
-        if (chosen == 0) continue;
+        const std::uint32_t arriving = bits(sample.arrives && in_run && !carries_nothing(throughput));
+        if (arriving == 0) continue;
+        const auto of = [&](const auto* column)
+                            ORRERY_INLINE_LAMBDA { return entry<V, aim>(column, light, sample.chosen, lights.count); };
         if constexpr (aim == Aim::chosen) {
-            if (queue.target != nullptr) compress_store<V>(queue.target + size, of(lights.sphere), chosen);
+            if (queue.target != nullptr) compress_store<V>(queue.target + size, of(lights.sphere), arriving);
         }
         const Vec3<F> colour{of(lights.r), of(lights.g), of(lights.b)};
         size = append_shadow<V>(queue, size, p, sample.direction, sample.inverse_distance,
-                                throughput * (colour * ratio), departed, slot, chosen);
+                                throughput * (colour * sample.factor), departed, slot, arriving);
     }
     return size;
+}
+
+template <class V, Response response, LightStrategy strategy>
+ORRERY_INLINE std::uint32_t connect_by(const ConnectContext<RealOf<V>>& context, std::uint32_t light, Range run,
+                                       const Rays<V>& rays, const Lobes<V>& lobes, const Shadows<V>& queue) {
+    if (light == chosen_light)
+        return connect_run<V, response, Aim::chosen, strategy>(context, light, run, rays, lobes, queue);
+    return connect_run<V, response, Aim::sphere, strategy>(context, light, run, rays, lobes, queue);
 }
 
 /// Returns the number of shadow rays. `light` is a light's number, or chosen_light where the table has cells.
 template <class V, Response response>
 std::uint32_t connect(const ConnectContext<RealOf<V>>& context, std::uint32_t light, Range run, const Rays<V>& rays,
                       const Lobes<V>& lobes, const Shadows<V>& queue) {
-    if (light == chosen_light) return connect_run<V, response, Aim::chosen>(context, light, run, rays, lobes, queue);
+    using enum LightStrategy;
     if (light < context.lights.points)
-        return connect_run<V, response, Aim::point>(context, light, run, rays, lobes, queue);
-    return connect_run<V, response, Aim::sphere>(context, light, run, rays, lobes, queue);
+        return connect_run<V, response, Aim::point, area>(context, light, run, rays, lobes, queue);
+    if (context.strategy == cone) return connect_by<V, response, cone>(context, light, run, rays, lobes, queue);
+    return connect_by<V, response, area>(context, light, run, rays, lobes, queue);
 }
 
 }  // namespace orrery::kernels

@@ -26,13 +26,13 @@ void emission(const Spheres<V>& spheres, const Lights<V>& lights, const Backgrou
               const Slots<V>& slots) {
     using F = Floats<V>;
     using U = Words<V>;
-    const bool emitters = lights.count > lights.points;
+    const bool emitters = lights.count > lights.points, shines = background.shines();
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const auto live = first_lanes<V>(count - i);
         const U hit = load<U>(hits.id + i);
         const auto missed = words_equal(hit, U(no_sphere)) && live;
         const U id = choose(live && !missed, hit & U(no_sphere), U(0u));
-        if (background.shines() && any(missed)) {
+        if (shines && any(missed)) {
             const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);
             const Vec3<F> radiance{F(background.r), F(background.g), F(background.b)};
             add_radiance<V>(slots, load<U>(rays.slot + i), throughput * radiance, missed);
