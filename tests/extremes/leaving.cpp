@@ -219,8 +219,8 @@ void add_leaving(std::vector<Case>& cases) {
     constexpr std::uint64_t sites_of_test = 2500, times_on_page = 170;  // eight cases of 1.3e7 rays
     for_each_mode([&]<class V>() {
         // Of float's rays three in 1e8, which graze another surface they begin on, have a disc of almost 0 beside a c
-        // that is not, and miss the place by 10 to 16 units; all others, and all of the other modes', by less than 8.
-        constexpr Limits limits{32, 8, 8};
+        // that is not, and miss the place by 10 to 16 units; all others, and all of double's, by less than 8.
+        constexpr Limits limits{32, 32, 8};
         const auto beside = [&](const char* name, double reach, Neighbours neighbours) {
             add_trials<V>(
                 cases, group, name, "u (f + r)", limits.of<V>(), sites_of_test,
