@@ -11,8 +11,8 @@
 #include <map>
 #include <sstream>
 
-#include "image/external_program.hpp"
 #include "program.hpp"
+#include "support/external_program.hpp"
 
 namespace orrery::test {
 namespace {

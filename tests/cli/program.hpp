@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "image/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace orrery::test {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "kernels/vec3.hpp"
-#include "random_numbers.hpp"
+#include "support/random_numbers.hpp"
 
 namespace orrery::extremes {
 

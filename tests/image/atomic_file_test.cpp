@@ -13,9 +13,9 @@
 #include <cerrno>
 #include <csignal>
 
+#include "support/temporary_folder.hpp"
 #include "system/file_descriptor.hpp"
 #include "system_faults.hpp"
-#include "temporary_folder.hpp"
 
 namespace orrery {
 namespace {

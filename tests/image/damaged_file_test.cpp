@@ -1,11 +1,11 @@
 // Truncated and mutated files: an image or a fault, never a crash, and never memory the file's size does not justify.
 #include <gtest/gtest.h>
 
-#include "allocation_watch.hpp"
 #include "image/codec.hpp"
 #include "mutation.hpp"
 #include "sample_images.hpp"
-#include "temporary_folder.hpp"
+#include "support/heap_watch.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace orrery {
 namespace {
@@ -21,7 +21,7 @@ protected:
 
     /// True where the file was read. A fault is fine, being out of memory is not.
     static bool reads(ByteView file) {
-        test::restart_allocation_watch();
+        test::restart_heap_watch();
         bool good = false;
         try {
             const Image image = decode_image(file);
@@ -32,7 +32,7 @@ protected:
         } catch (const std::exception& fault) {
             EXPECT_STRNE(fault.what(), "");
         }
-        EXPECT_LE(test::largest_allocation(), justified_bytes);
+        EXPECT_LE(test::heap_use().largest, justified_bytes);
         return good;
     }
 };
@@ -66,14 +66,14 @@ TEST_P(DamagedFile, DoesNoHarmBehindTheMagic) {
 TEST_P(DamagedFile, IsRefusedWhereItsPixelsDoNotFitInMemory) {
     const Image black{1000, 1000, std::vector<Rgb>(1'000'000)};
     const Bytes file = encode_image(GetParam(), black, ToneMap::none, {});
-    test::restart_allocation_watch();
+    test::restart_heap_watch();
     try {
         decode_image(file, 11'000'000);
         ADD_FAILURE() << "it was read";
     } catch (const std::runtime_error& fault) {
         EXPECT_NE(std::string(fault.what()).find("of memory are left"), std::string::npos) << fault.what();
     }
-    EXPECT_LE(test::largest_allocation(), 1'000'000u) << "known before any is taken";
+    EXPECT_LE(test::heap_use().largest, 1'000'000u) << "known before any is taken";
     EXPECT_EQ(decode_image(file, 17'000'000).pixels, black.pixels);
 }
 
@@ -103,13 +103,13 @@ TEST(DamagedPng, DoesNoHarmBehindTheChecksums) {
         SCOPED_TRACE(seed);
         Bytes damaged = test::mutated(file, seed);
         test::repair_png_checksums(damaged);
-        test::restart_allocation_watch();
+        test::restart_heap_watch();
         try {
             decode_image(damaged);
             ++read;
         } catch (const std::runtime_error&) {
         }
-        EXPECT_LE(test::largest_allocation(), justified_bytes);
+        EXPECT_LE(test::heap_use().largest, justified_bytes);
     }
     EXPECT_GT(read, 0u);
 }
@@ -117,10 +117,10 @@ TEST(DamagedPng, DoesNoHarmBehindTheChecksums) {
 TEST(AbsurdSize, IsRefusedWithoutAllocatingIt) {
     for (const char* header : {"P6\n65536 65536\n255\n", "P6\n4294967295 4294967295\n65535\n",
                                "PF\n65536 65536\n-1.0\n", "Pf\n4294967295 1\n1.0\n"}) {
-        test::restart_allocation_watch();
+        test::restart_heap_watch();
         const Bytes file = test::to_bytes(header + std::string(100, 'x'));
         EXPECT_THROW(decode_image(file), std::runtime_error) << header;
-        EXPECT_LE(test::largest_allocation(), 1000u);
+        EXPECT_LE(test::heap_use().largest, 1000u);
     }
 }
 

@@ -15,7 +15,7 @@
 #include "image/image_file.hpp"
 #include "openexr_core_reader.hpp"
 #include "sample_images.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace orrery {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "image/codec.hpp"
 #include "sample_images.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace orrery {
 namespace {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "image/atomic_file.hpp"
+#include "support/temporary_folder.hpp"
 #include "system_faults.hpp"
-#include "temporary_folder.hpp"
 
 namespace orrery {
 namespace {

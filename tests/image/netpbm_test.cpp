@@ -5,13 +5,13 @@
 #include <iterator>
 #include <sstream>
 
-#include "external_program.hpp"
 #include "image/image_file.hpp"
 #include "image/pfm.hpp"
 #include "image/png.hpp"
 #include "image/ppm.hpp"
 #include "sample_images.hpp"
-#include "temporary_folder.hpp"
+#include "support/external_program.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace orrery {
 namespace {

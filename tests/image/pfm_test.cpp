@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace orrery {
 namespace {

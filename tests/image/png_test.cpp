@@ -4,7 +4,7 @@
 
 #include "mutation.hpp"
 #include "sample_images.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace orrery {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "kernels/queues.hpp"
-#include "random_numbers.hpp"
+#include "support/random_numbers.hpp"
 
 namespace orrery::kernel_tests {
 

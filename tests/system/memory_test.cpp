@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "image/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace orrery {
 namespace {

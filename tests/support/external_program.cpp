@@ -1,4 +1,4 @@
-#include "external_program.hpp"
+#include "support/external_program.hpp"
 
 #include <array>
 #include <cstdio>
