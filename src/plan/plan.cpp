@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "plan/require_valid.hpp"
+#include "scene/valid.hpp"
 
 namespace orrery {
 
@@ -17,6 +17,8 @@ using kernels::ScatteringTraits;
 Plan::Plan(Scene scene, unsigned threads) : scene_(std::move(scene)) {
     RenderSettings& s = scene_.settings;
     require_valid(scene_);
+    if (scene_.materials.size() > kernels::surface_material_mask)
+        throw std::invalid_argument("more materials than a sphere's word can tell apart");
     if (s.estimator == Estimator::stratified) {
         strata_ = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(s.samples)));
     }

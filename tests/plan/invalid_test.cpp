@@ -1,4 +1,4 @@
-// A scene built by hand may break what the reader guarantees: then there is no plan.
+// A scene built by hand may hold what no file may: then there is no plan.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -54,8 +54,29 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"NoRadius", [](Scene& s) { s.primitives[0].radius = 0; }},
                     Fault{"NegativeRadius", [](Scene& s) { s.primitives[0].radius = -1; }},
                     Fault{"RadiusThatIsNoNumber", [](Scene& s) { s.primitives[0].radius = nan; }},
-                    Fault{"RadiusWithoutACube", [](Scene& s) { s.primitives[0].radius = 1e-110; }},
-                    Fault{"CentreWithoutACube", [](Scene& s) { s.primitives[0].centre.z = -1e110; }},
+                    Fault{"RadiusTooSmallForFloat", [](Scene& s) { s.primitives[0].radius = 0.99e-18; }},
+                    Fault{"CentreTooFarForFloat", [](Scene& s) { s.primitives[0].centre.z = -1.01e18; }},
+                    Fault{"WiderThanAnImageMayBe", [](Scene& s) { s.settings.width = 65537; }},
+                    Fault{"NoSuchTransport", [](Scene& s) { s.settings.transport = static_cast<Transport>(3); }},
+                    Fault{"ApertureTooSmallForFloat", [](Scene& s) { s.camera.aperture = 1e-19; }},
+                    Fault{"CameraFarther", [](Scene& s) { s.camera.position.x = 1e19; }},
+                    Fault{"FlatterThanAnImagePlaneMayBe", [](Scene& s) { s.camera.aspect = 1e7; }},
+                    Fault{"IndexOfRefractionBeyondReason", [](Scene& s) { s.materials[1].eta = 1e-7; }},
+                    Fault{"RoughnessOfOne", [](Scene& s) { s.materials[0].roughness = 1; }},
+                    Fault{"RoughnessThatRoundsToOne", [](Scene& s) { s.materials[0].roughness = 1 - 1e-9; }},
+                    Fault{"GlossWithoutRoughness",
+                          [](Scene& s) {
+                              s.materials[0].kind = glossy;
+                              s.materials[0].roughness = 0;
+                          }},
+                    Fault{"TranslucenceWithoutRoughness",
+                          [](Scene& s) {
+                              s.materials[1].kind = translucent;
+                              s.materials[1].roughness = 0;
+                          }},
+                    Fault{"LightBrighterThanALampMayBe", [](Scene& s) { s.point_lights[0].intensity.g = 1.01e30; }},
+                    Fault{"LightFarther", [](Scene& s) { s.point_lights[0].position.y = 1e19; }},
+                    Fault{"NegativeBackground", [](Scene& s) { s.background.b = -1; }},
                     Fault{"CentreAtInfinity", [](Scene& s) { s.primitives[0].centre.y = inf; }},
                     Fault{"NoIndexOfRefraction", [](Scene& s) { s.materials[1].eta = 0; }},
                     Fault{"ReflectanceAboveOne", [](Scene& s) { s.materials[0].rho.g = 1.5; }},
@@ -69,6 +90,11 @@ TEST(Valid, LimitsAreInside) {
     scene.settings.depth = 20;
     scene.settings.width = 65536;
     scene.camera.fov = 179.9;
+    scene.materials[0].kind = glossy;
+    scene.materials[0].roughness = 1e-6;
+    scene.primitives[0].centre = {1e18, -1e18, 0};
+    scene.primitives[0].radius = 1e-18;
+    scene.background = dvec3{1e30};
     EXPECT_NO_THROW(Plan{scene});
 }
 
