@@ -13,8 +13,8 @@
 #include "cli/outputs.hpp"
 #include "cli/process.hpp"
 #include "cli/reports.hpp"
-#include "film/compare.hpp"
 #include "image/atomic_file.hpp"
+#include "image/compare.hpp"
 #include "image/image_file.hpp"
 #include "system/memory.hpp"
 

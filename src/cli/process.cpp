@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "image/pending_temporaries.hpp"
+#include "image/temporaries.hpp"
 #include "system/printable.hpp"
 
 namespace orrery {

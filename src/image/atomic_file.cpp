@@ -12,7 +12,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "image/leftovers.hpp"
+#include "image/temporaries.hpp"
 #include "system/file_descriptor.hpp"
 #include "system/links.hpp"
 
@@ -130,7 +130,7 @@ public:
     int error() const { return error_; }  ///< why it could not be made, 0 where it was
 
     // Each returns 0 or the error.
-    int write(ByteView bytes);
+    int write(std::span<const std::byte> bytes);
     int set_mode(mode_t mode) { return ::fchmod(file_.number(), mode) == 0 ? 0 : errno; }
     int flush();
     int rename_to(const fs::path& target);
@@ -144,7 +144,7 @@ private:
     FileDescriptor lock_;  ///< holds what lock_temporary took after file_ is closed, until all is done
 };
 
-int AtomicFile::Temporary::write(ByteView bytes) {
+int AtomicFile::Temporary::write(std::span<const std::byte> bytes) {
     constexpr std::size_t most_at_once = std::size_t{1} << 30;  // Linux writes at most 2 GiB per call
     while (!bytes.empty()) {
         const ssize_t count = ::write(file_.number(), bytes.data(), std::min(bytes.size(), most_at_once));
@@ -185,7 +185,7 @@ AtomicFile::AtomicFile(const fs::path& file, std::uint64_t bytes) : file_(file),
 
 AtomicFile::~AtomicFile() = default;
 
-void AtomicFile::write(ByteView bytes) { require("cannot write", temporary_->write(bytes)); }
+void AtomicFile::write(std::span<const std::byte> bytes) { require("cannot write", temporary_->write(bytes)); }
 
 void AtomicFile::commit() {
     require("cannot write", temporary_->flush());
@@ -196,7 +196,7 @@ void AtomicFile::require(const char* what, int error) const {
     if (error != 0) throw_system_error(file_, what, error);
 }
 
-void write_atomically(const fs::path& file, ByteView bytes) {
+void write_atomically(const fs::path& file, std::span<const std::byte> bytes) {
     AtomicFile whole(file, bytes.size());
     whole.write(bytes);
     whole.commit();

@@ -1,12 +1,11 @@
 // Files that appear whole or not at all.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-
-#include "image/bytes.hpp"
-#include "image/pending_temporaries.hpp"
+#include <span>
 
 namespace orrery {
 
@@ -30,7 +29,7 @@ public:
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    void write(ByteView bytes);
+    void write(std::span<const std::byte> bytes);
     void commit();
 
 private:
@@ -42,6 +41,6 @@ private:
 };
 
 /// All of it at once.
-void write_atomically(const std::filesystem::path& file, ByteView bytes);
+void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
 }  // namespace orrery

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "film/film.hpp"
-#include "film/tonemap.hpp"
+#include "image/image.hpp"
+#include "image/tonemap.hpp"
 
 namespace orrery {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "film/tonemap.hpp"
+#include "image/tonemap.hpp"
 
 namespace orrery {
 

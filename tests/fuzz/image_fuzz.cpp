@@ -6,10 +6,6 @@
 #include <stdexcept>
 
 #include "image/codec.hpp"
-#include "image/exr.hpp"
-#include "image/pfm.hpp"
-#include "image/png.hpp"
-#include "image/ppm.hpp"
 
 namespace {
 

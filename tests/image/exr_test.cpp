@@ -1,4 +1,4 @@
-#include "image/exr.hpp"
+#include "image/codec.hpp"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

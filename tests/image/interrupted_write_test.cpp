@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "image/atomic_file.hpp"
+#include "image/temporaries.hpp"
 #include "support/temporary_folder.hpp"
 #include "system_faults.hpp"
 

@@ -1,5 +1,5 @@
 // Writers that are killed, and those that come after them; writers at the same time.
-#include "image/leftovers.hpp"
+#include "image/temporaries.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "image/metadata_text.hpp"
+#include "image/codec.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "image/bytes.hpp"
+#include "image/codec.hpp"
 
 namespace orrery::test {
 

@@ -6,9 +6,7 @@
 #include <sstream>
 
 #include "image/image_file.hpp"
-#include "image/pfm.hpp"
-#include "image/png.hpp"
-#include "image/ppm.hpp"
+#include "image/codec.hpp"
 #include "sample_images.hpp"
 #include "support/external_program.hpp"
 #include "support/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "image/png.hpp"
+#include "image/codec.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "image/quantise.hpp"
+#include "image/tonemap.hpp"
 
 #include <gtest/gtest.h>
 

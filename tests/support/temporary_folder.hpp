@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "image/bytes.hpp"
+#include "image/codec.hpp"
 
 namespace orrery::test {
 

@@ -1,5 +1,5 @@
 // Figures of a comparison: by hand, by order statistics, and in an experiment with known noise.
-#include "film/compare.hpp"
+#include "image/compare.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,14 @@
-// Temporaries of writers that were killed, and how to tell them from those of writers at work.
+// The temporaries that files are made in: names, locks, and what becomes of them where a writer ends before its time.
 //
 // A writer holds a lock (flock) on its temporary until it is renamed; the system lets go of it when the process ends,
 // however it ends. What nobody holds is left over. On a file system of many machines the lock may hold on each alone:
 // what another one made, as the name says, must also be a day old.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace orrery {
 
@@ -20,5 +22,24 @@ bool lock_temporary(int descriptor);
 
 /// Removes what is left over in the folder, as far as that is allowed.
 void remove_leftovers(const std::filesystem::path& folder);
+
+/// Removes the temporaries of writes under way and lets no new write begin. For a handler of SIGINT or SIGTERM that
+/// ends the process afterwards; async-signal-safe.
+void remove_pending_temporaries() noexcept;
+
+/// Announces a temporary for as long as it lives. It comes before the file is made, so that a signal in between finds
+/// a name too many rather than a file too many.
+class PendingTemporary {
+public:
+    /// Throws std::runtime_error where the process is ending, where too many writes are under way at once, or where
+    /// the path is longer than the system allows.
+    explicit PendingTemporary(std::string_view path);
+    ~PendingTemporary();
+    PendingTemporary(const PendingTemporary&) = delete;
+    PendingTemporary& operator=(const PendingTemporary&) = delete;
+
+private:
+    std::size_t slot_;
+};
 
 }  // namespace orrery

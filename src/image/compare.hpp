@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "film/film.hpp"
+#include "image/image.hpp"
 
 namespace orrery {
 

@@ -1,4 +1,4 @@
-#include "film/compare.hpp"
+#include "image/compare.hpp"
 
 #include <algorithm>
 #include <array>

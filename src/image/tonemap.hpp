@@ -1,12 +1,19 @@
-// Tone-mapped values to the 8 bits PPM and PNG store.
+// Tone mappers: linear radiance -> [0, 1], without gamma; and [0, 1] to the 8 bits that PPM and PNG store.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "film/film.hpp"
+#include "image/image.hpp"
 
 namespace orrery {
+
+enum class ToneMap : std::uint8_t { sigmoid, linear, none };
+
+/// sigmoid I/(1+I) per channel; linear I/max(I), the maximum per channel over the image (a black channel stays
+/// black); none clamps to [0, 1]. What a film cannot hold is still given a meaning: negative and NaN become 0, +inf
+/// counts as the largest float.
+Image tone_mapped(const Image& linear, ToneMap mapper);
 
 /// round(255 x), half up; what lies outside [0, 1] is clamped and NaN is 0. In double the product of a float and 255
 /// is exact, so the only rounding is the one asked for.

@@ -1,4 +1,4 @@
-#include "film/tonemap.hpp"
+#include "image/tonemap.hpp"
 
 #include <algorithm>
 #include <limits>
