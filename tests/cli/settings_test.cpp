@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
@@ -23,7 +24,8 @@ protected:
     /// Another value than the scene's or the default: the last word, the largest number that renders soon.
     SettingValue another() const {
         if (setting_.kind == SettingKind::size) return {7, 5};
-        if (setting_.kind == SettingKind::number) return {setting_.member.get(RenderSettings{})[0] + 9};
+        if (setting_.kind == SettingKind::number)
+            return {std::min(setting_.member.get(RenderSettings{})[0] + 9, setting_.high)};
         const auto last = static_cast<std::uint32_t>(setting_.words.size() - 1);
         return {last != setting_.member.get(RenderSettings{})[0] ? last : 0};
     }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -30,7 +31,8 @@ SettingValue default_of(const Setting& setting) { return setting.member.get(Rend
 /// All words; the ends of a range and a number between them.
 std::vector<SettingValue> values_of(const Setting& setting) {
     if (setting.kind == SettingKind::size) return {{1, 2}, {65536, 1}, {640, 480}};
-    if (setting.kind == SettingKind::number) return {{setting.low}, {20}, {setting.high}};
+    if (setting.kind == SettingKind::number)
+        return {{setting.low}, {setting.low + (setting.high - setting.low) / 2}, {setting.high}};
     std::vector<SettingValue> values;
     for (std::uint32_t word = 0; word < setting.words.size(); ++word) values.push_back({word});
     return values;
@@ -61,7 +63,8 @@ std::string line_of(const Setting& setting) {
         values += fmt::format("{0}{1}`{2}`{1}", word == 0 ? "" : " ", bold, setting.words[word]);
     }
     if (setting.kind == SettingKind::number) {
-        values = fmt::format("{} or more", setting.low);
+        const bool bounded = setting.high != std::numeric_limits<std::uint32_t>::max();
+        values = fmt::format("{} {}", setting.low, bounded ? fmt::format("to {}", setting.high) : "or more");
         if (has_default) values += fmt::format("; **{}**", default_of(setting)[0]);
     } else if (setting.kind == SettingKind::size) {
         values = fmt::format("[w, h], each {} to {}", setting.low, setting.high);
