@@ -80,7 +80,7 @@ class Ours:
     def __init__(self, name):
         self.file = ROOT / "scenes" / f"{name}.json"
         self.scene = scene.read(self.file)
-        recipe = self.file.read_text(encoding="utf-8"), call(ORRERY, "--version")[0], SIZE, OUR_REFERENCE
+        recipe = self.file.read_text(encoding="utf-8"), call(ORRERY, "--version")[0].split("+")[0], SIZE, OUR_REFERENCE
         self.reference = kept(name, ".pfm", recipe, lambda new: self.render(OUR_REFERENCE, 0, new))
 
     def render(self, samples, seed, image):
