@@ -14,6 +14,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 using ::testing::Not;
 using ::testing::StartsWith;
 using Arguments = std::vector<std::string>;
@@ -34,7 +35,8 @@ TEST(Usage, HelpAndVersionGoToStandardOutput) {
     }
     const Outcome version = orrery({"--version"});
     EXPECT_EQ(version.exit_code, 0);
-    EXPECT_EQ(version.output, "orrery " ORRERY_VERSION "\n");
+    // With the revision, where the source is a checkout.
+    EXPECT_THAT(version.output, MatchesRegex("orrery " ORRERY_VERSION "([+][0-9a-f]{9})?\n"));
 }
 
 TEST(Usage, RenderHelpNamesEveryOptionItsDefaultAndAnExample) {
