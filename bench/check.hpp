@@ -8,7 +8,7 @@
 
 namespace orrery::bench {
 
-/// Two wave storages for a plan, so that a stage's result can be laid beside the scalar stage's.
+/// Two wave storages for a plan, so that a stage's result can be compared with the scalar stage's.
 struct Workspace {
     Workspace(const Plan& plan, std::uint32_t wave_size)
         : work(plan.needs(), plan.settings().depth, wave_size),

@@ -18,7 +18,7 @@ struct Options {
                                             "showcase",      "bench/like_46", "bench/like_484"};
     /// Spheres of the random scenes.
     std::vector<std::uint32_t> random_counts = {8, 64, 1024, 65536, 1048576};
-    std::uint32_t waves = 8;  ///< recorded per scene; more rays than branch predictors learn by heart
+    std::uint32_t waves = 8;  ///< recorded per scene; more rays than branch predictors remember
 };
 
 }  // namespace orrery::bench

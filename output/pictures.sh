@@ -6,8 +6,9 @@ set -eu
 orrery=$1 folder=$2
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 cd "$here/.."
-statistics=$(mktemp)
-trap 'rm -f "$statistics"' EXIT
+new=$(mktemp -d)
+trap 'rm -rf "$new"' EXIT
+statistics=$new/statistics.json
 
 # number KEY: the first that the statistics have under it.
 number() {
@@ -33,7 +34,10 @@ while IFS= read -r line; do
     command=${line#*\`}
     command=${command%%\`*}
     # shellcheck disable=SC2086 # a scene and options
-    "$orrery" render scenes/$command -o "$folder/$picture" --stats "$statistics" >&2
+    "$orrery" render scenes/$command -o "$new/picture.png" --stats "$statistics" >&2
+    # A picture names the revision that made it: the same pixels are no reason for another file.
+    "$orrery" compare "$new/picture.png" "$folder/$picture" --max-rmse 0 >/dev/null 2>&1 ||
+        cp "$new/picture.png" "$folder/$picture"
     printf '%s |' "${line%%\` |*}\`"
     echo "$(number samples_per_pixel) $(number estimate) $(number seconds) $(number rays_per_second)" | LC_ALL=C awk '{
         printf (100 * $2 < 10 ? " %d | %.2g %% |" : " %d | %.0f %% |") " %.2f | %.0f |\n", $1, 100 * $2, $3, $4 / 1e6

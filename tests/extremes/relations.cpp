@@ -102,7 +102,7 @@ void translate(Errors& errors, Dice& dice, double far) {
     errors.add(worst);
 }
 
-/// A bunch of neighbouring rays, culled together: hits of theirs that are lost.
+/// A packet of neighbouring rays, culled together: hits of theirs that are lost.
 template <class V>
 void share_a_cone(Errors& errors, Dice& dice) {
     using Real = typename V::Real;
@@ -155,7 +155,7 @@ void add_relations(std::vector<Case>& cases) {
         for (const double far : {1e3, 1e6})
             add(fmt::format("moved by {:g}", far), "u (moved + f + r)", 7, 1000,
                 [=](Errors& errors, Dice& dice) { translate<V>(errors, dice, far); });
-        add("culled as a bunch of 256 rays", "lost hits", 0, 100, share_a_cone<V>);
+        add("culled as a packet of 256 rays", "lost hits", 0, 100, share_a_cone<V>);
     });
 }
 

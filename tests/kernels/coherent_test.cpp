@@ -54,9 +54,9 @@ Ray ray_of(const Beam& beam, const Ball& target, const glm::dvec3& eye, Numbers&
 }
 
 /// Rays as the stages take them together: every packet is a beam from a place of its own past a ball of its own.
-class Bunches {
+class Packets {
 public:
-    Bunches(const std::vector<Ball>& balls, const glm::dvec3& place, const Beam& beam, Numbers& random)
+    Packets(const std::vector<Ball>& balls, const glm::dvec3& place, const Beam& beam, Numbers& random)
         : balls_(balls), place_(place), beam_(beam), random_(random) {}
     const Ray& next() {
         const bool first = count_++ % kernels::packet_size == 0;
@@ -86,9 +86,9 @@ TEST_P(CoherentTest, MeetsWhatTheLoopMeets) {
                              const Beam& beam, std::uint32_t count) {
         Numbers random(count);
         Rays rays(kernels::round_up(count));
-        Bunches bunches(balls, place, beam, random);
+        Packets packets(balls, place, beam, random);
         for (std::uint32_t i = 0; i < count; ++i) {
-            const Ray& ray = bunches.next();
+            const Ray& ray = packets.next();
             // Rays that leave a sphere are as coherent: neighbours' first hits, a mirror's image.
             put_ray(*rays, i, ray.o, ray.d, i % 3 == 0 ? random.below(world.spheres.count) : no_sphere);
         }
@@ -162,9 +162,9 @@ TEST_P(CoherentTest, MeetsInATreeWhatEachRayMeetsAlone) {
                 constexpr std::uint32_t count = 300;
                 Numbers random(size);
                 Rays rays(kernels::round_up(count));
-                Bunches bunches(balls, place, beam, random);
+                Packets packets(balls, place, beam, random);
                 for (std::uint32_t i = 0; i < count; ++i) {
-                    const Ray& ray = bunches.next();
+                    const Ray& ray = packets.next();
                     const std::uint32_t left = random.below(size) | (i % 2 == 0 ? kernels::inside_bit : 0);
                     put_ray(*rays, i, ray.o, ray.d, i % 3 == 0 ? left : no_sphere);
                 }
@@ -219,11 +219,11 @@ TEST_P(CoherentTest, IsShadowedByWhatTheLoopFinds) {
             for (const std::uint32_t count : {1u, 33u, 256u, 3700u}) {
                 Numbers random(count + skip);
                 Shadows queue(kernels::round_up(count));
-                Bunches bunches(balls, places[0], beam, random);
+                Packets packets(balls, places[0], beam, random);
                 for (std::uint32_t i = 0; i < count; ++i) {
-                    const Ray& ray = bunches.next();
+                    const Ray& ray = packets.next();
                     // Ends before, about at and behind the target.
-                    const double reach = glm::length(bunches.target().centre - ray.o) * random.between(0.5, 1.5);
+                    const double reach = glm::length(packets.target().centre - ray.o) * random.between(0.5, 1.5);
                     put3(queue->ox, queue->oy, queue->oz, i, ray.o);
                     put3(queue->dx, queue->dy, queue->dz, i, ray.d);
                     put3(queue->r, queue->g, queue->b, i, glm::dvec3(1));
