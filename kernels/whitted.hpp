@@ -9,7 +9,7 @@
 
 namespace orrery::kernels {
 
-/// Below this weight a branch is dropped (spec section 4).
+/// Below this weight a branch is dropped (scenes/README.md).
 template <class Real>
 inline constexpr Real branch_cut = Real(1e-5);
 

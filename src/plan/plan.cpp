@@ -47,7 +47,7 @@ std::size_t Plan::sampled_lights() const {
 
 void Plan::plan_camera() {
     const Camera& from = scene_.camera;
-    // Left-handed: X = up x Z points right, Y = Z x X up (spec section 2).
+    // Left-handed: X = up x Z points right, Y = Z x X up (scenes/README.md).
     const glm::dvec3 z = glm::normalize(from.target - from.position);
     const bool along_up = z.x == 0 && z.z == 0;
     const glm::dvec3 x = glm::normalize(glm::cross(along_up ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0), z));

@@ -1,4 +1,4 @@
-// Stage `shade`, last step: every shadow ray against the estimator of spec section 4 in double.
+// Stage `shade`, last step: every shadow ray against the estimator of output/REPORT.md, task 3, in double.
 #include "kernel_test.hpp"
 #include "light_reference.hpp"
 #include "lit_vertices.hpp"

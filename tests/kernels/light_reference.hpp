@@ -1,4 +1,4 @@
-// Densities of light sampling per solid angle, from the geometry of spec section 4 and in double.
+// Densities of light sampling per solid angle, from the geometry (output/REPORT.md, task 3) and in double.
 #pragma once
 
 #include <glm/geometric.hpp>

@@ -40,7 +40,7 @@ inline glm::dvec3 mirror(const glm::dvec3& d, const glm::dvec3& n) { return d - 
 /// Sine of the angle between two unit vectors, good near 0.
 inline double sine_between(const glm::dvec3& a, const glm::dvec3& b) { return glm::length(glm::cross(a, b)); }
 
-/// Density of the glossy lobe of spec section 3 at the angle theta from R, before conditioning.
+/// Density of the glossy lobe (output/REPORT.md, task 3) at the angle theta from R, before conditioning.
 inline double lobe_density(double theta, double beta) {
     const double sine = std::sin(theta);
     if (theta >= pi / 2 || sine >= beta) return 0;

@@ -1,4 +1,4 @@
-// The camera table, against the conventions of spec section 2.
+// The camera table, against the conventions of scenes/README.md.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// How a ray leaves a surface (spec section 3): Fresnel, Snell and the rough cone about both.
+// How a ray leaves a surface (scenes/README.md): Fresnel, Snell and the rough cone about both.
 #pragma once
 
 #include <array>

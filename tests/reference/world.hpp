@@ -1,4 +1,4 @@
-// Rays, the spheres they hit, and the camera they come from (spec section 2).
+// Rays, the spheres they hit, and the camera they come from (scenes/README.md).
 #pragma once
 
 #include <glm/vec3.hpp>
