@@ -20,7 +20,7 @@ import scene
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent / "pages"))
-from page import BENCH, ROOT, table, with_blocks, write
+from page import BENCH, ROOT, processor, table, with_blocks, write
 
 WORK = ROOT / "build" / "peers"
 HEAD = ["scene", "setting", "error, %", "its seconds", "our samples", "our seconds", "times as long",
@@ -158,9 +158,7 @@ def race(peer, ours):
 
 
 def machine():
-    found = dict(re.findall(r"^(.*?)\s*:\s*(.*)$", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.M))
-    return (f"{found.get('model name')} (family {found.get('cpu family')}, model {found.get('model')}), one thread on "
-            f"{os.cpu_count()} cores; load average when it began {os.getloadavg()[0]:.1f}")
+    return f"{processor()}, one thread on {os.cpu_count()} cores; load average when it began {os.getloadavg()[0]:.1f}"
 
 
 def races(program, make, names, settings):
