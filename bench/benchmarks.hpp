@@ -1,6 +1,6 @@
 // Every group of benchmarks registers itself with Google Benchmark by one of these.
 //
-// A benchmark's name is group/scene/what/variant; the report (bench/report) reads it so.
+// A benchmark's name is group/scene/what/variant; bench/pages/bench.py reads it so.
 #pragma once
 
 #include "bench/worlds.hpp"

@@ -2,7 +2,7 @@
 #
 # The headers are looked for themselves, as Debian's CMake package of xsimd 8.1 links a library `xtl` that it does not
 # depend on. Before 8.0 vectors had other types altogether; from 14.0 on min and max treat what is no number otherwise,
-# on which the kernels rely (lanes.hpp).
+# on which the kernels rely (lanes/numbers.hpp).
 find_path(XSIMD_INCLUDE_DIR xsimd/xsimd.hpp)
 if(XSIMD_INCLUDE_DIR)
   set(xsimd_version "")

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """bench/COVERAGE.md's figures: coverage.py RESULTS.csv, as orrery_coverage prints them."""
 
-import pathlib
 import re
 import sys
 from math import sqrt
 
-from page import in_order, parse, publish, table
+from page import in_order, publish_file, table
 
 COUNTS = ("renders", "inside", "above", "below", "at_least")
 
@@ -54,11 +53,5 @@ def blocks(facts, rows):
     }
 
 
-def main(file):
-    text = pathlib.Path(file).read_text()
-    facts, rows = parse(text)
-    publish("COVERAGE.md", facts, {"coverage.csv": text}, blocks(facts, rows), dict)
-
-
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    publish_file("COVERAGE", sys.argv[1], blocks)

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 """bench/EXTREMES.md's figures: extremes.py RESULTS.csv, as orrery_extremes prints them."""
 
-import pathlib
 import sys
 
-from page import in_order, parse, publish, table
+from page import in_order, publish_file, table
 
 
 def figure(x):
@@ -30,11 +29,5 @@ def blocks(facts, rows):
     return {"nearest": table(["group", *head], nearest), "cases": cases}
 
 
-def main(file):
-    text = pathlib.Path(file).read_text()
-    facts, rows = parse(text)
-    publish("EXTREMES.md", facts, {"extremes.csv": text}, blocks(facts, rows), dict)
-
-
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    publish_file("EXTREMES", sys.argv[1], blocks)

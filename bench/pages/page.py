@@ -77,6 +77,13 @@ def write(file, data):
     os.replace(temporary, file)
 
 
+def publish_file(name, file, blocks):
+    """Publishes page NAME.md, which has no plots, from a results file that is kept as results/name.csv."""
+    text = pathlib.Path(file).read_text()
+    facts, rows = parse(text)
+    publish(f"{name}.md", facts, {f"{name.lower()}.csv": text}, blocks(facts, rows), dict)
+
+
 def publish(name, facts, results, blocks, plots):
     """Page NAME with these blocks, {file name: text or SVG}, beside it. `plots` is called for the plots, as only they
     need matplotlib."""

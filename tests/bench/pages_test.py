@@ -5,7 +5,9 @@ import json
 import pathlib
 import re
 import sys
+import tempfile
 import unittest
+from unittest import mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
@@ -51,6 +53,21 @@ class Markers(unittest.TestCase):
         for text, name in ((PAGE, "c"), ("<!-- begin a -->\n", "a"), ("<!-- end a -->\n<!-- begin a -->\n", "a")):
             with self.assertRaises(ValueError):
                 page.with_blocks(text, {name: ""})
+
+
+class Publishing(unittest.TestCase):
+    def test_only_a_whole_run_replaces_the_page_in_the_repository(self):
+        new = page.with_blocks(PAGE, {"a": "new\n"})
+        kept = {"bench/A.md": PAGE, "build/pages/A.md": new, "build/pages/results/a.csv": "x\n"}
+        for whole, expected in (("yes", {"bench/A.md": new, "bench/results/a.csv": "x\n"}), ("no", kept)):
+            with tempfile.TemporaryDirectory() as folder:
+                root = pathlib.Path(folder)
+                (root / "bench").mkdir()
+                (root / "bench/A.md").write_text(PAGE)
+                with mock.patch.multiple(page, ROOT=root, BENCH=root / "bench"):
+                    page.publish("A.md", {"whole": whole}, {"a.csv": "x\n"}, {"a": "new\n"}, dict)
+                found = {str(file.relative_to(root)): file.read_text() for file in root.rglob("*") if file.is_file()}
+            self.assertEqual(found, expected)
 
 
 class Benchmarks(unittest.TestCase):

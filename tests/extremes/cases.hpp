@@ -12,7 +12,7 @@
 namespace orrery::extremes {
 
 struct Case {
-    std::string group;  ///< what is tested: "ray and sphere"
+    std::string group;  ///< what is tested: "met or missed"
     std::string name;   ///< at which extreme: "distance up to 1e8 radii"
     std::string mode;   ///< "float", "float, SSE2", "double"
     std::string unit;   ///< what an error of 1 is
