@@ -61,13 +61,13 @@ std::vector<PeerRay> peer_rays(const kernels::SphereTable<float>& spheres, const
 }
 
 std::vector<PeerRay> peer_rays(const kernels::SphereTable<float>& spheres, const kernels::ShadowQueue<float>& queue,
-                               std::uint32_t count, std::uint32_t skip) {
+                               std::uint32_t count, std::uint32_t target) {
     std::vector<PeerRay> list;
     for (std::size_t i = 0; i < count; ++i) {
         PeerRay ray = peer_ray(spheres, queue, i);
         ray.tfar = 1 / queue.inverse_t_max[i];
-        if (skip != kernels::no_sphere) {
-            const Roots light = roots(spheres, skip, queue, i);
+        if (target != kernels::no_sphere) {
+            const Roots light = roots(spheres, target, queue, i);
             const double end = light.near > 0 ? light.near : light.far;
             if (end > 0) ray.tfar = static_cast<float>(std::min<double>(ray.tfar, end) * 0.9999);
         }

@@ -30,9 +30,9 @@ struct PeerRay {
 /// The rays of a queue.
 std::vector<PeerRay> peer_rays(const kernels::SphereTable<float>& spheres, const kernels::RayQueue<float>& rays,
                                std::uint32_t count);
-/// The segments of a shadow queue; they end just before the sphere `skip`.
+/// The segments of a shadow queue; they end just before the sphere `target`.
 std::vector<PeerRay> peer_rays(const kernels::SphereTable<float>& spheres, const kernels::ShadowQueue<float>& queue,
-                               std::uint32_t count, std::uint32_t skip);
+                               std::uint32_t count, std::uint32_t target);
 
 /// Flush-to-zero and denormals-are-zero, as Embree's manual asks of threads that query it; for the object's life.
 class FlushDenormals {

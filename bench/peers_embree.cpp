@@ -85,7 +85,7 @@ void run_embree(benchmark::State& state, World& world, const PeerQueue& queue, b
     for (const StageCall* call : world.recording().of(queue.stage, queue.bounce)) {
         call->before.restore(world.workspace().work);
         const WaveStorage<float>& wave = world.workspace().work;
-        queries.emplace_back(call->stage == "shadow" ? peer_rays(spheres, wave.shadows, call->rays, call->skip)
+        queries.emplace_back(call->stage == "shadow" ? peer_rays(spheres, wave.shadows, call->rays, call->target)
                                                      : peer_rays(spheres, wave.rays, call->rays));
         rays += call->rays;
         if (!is_new) continue;

@@ -25,7 +25,6 @@ std::vector<std::pair<std::string, std::uint32_t>> Recording::kinds() const {
 Recording record(const Plan& plan, std::uint32_t waves) {
     Recording recording;
     recording.wave_size = choose_wave_size(plan, 0);
-    recording.queue_bytes_per_ray = queue_bytes(plan, recording.wave_size) / recording.wave_size;
     const auto& stages = kernels::stages_for(best_isa());
     Film film(plan.settings().width, plan.settings().height);
     const std::function<bool()> never;

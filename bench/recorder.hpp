@@ -15,24 +15,20 @@ namespace orrery::bench {
 
 /// One call of one stage: its input, and how to make it again.
 struct StageCall {
-    std::string stage;                        ///< "intersect", "scatter glossy", ...
-    std::uint32_t bounce = 0;                 ///< how many times the wave's rays have scattered
-    std::uint32_t rays = 0;                   ///< records the stage runs over
-    std::uint32_t bytes = 0;                  ///< read and written per record, as the profile counts them
-    std::uint32_t results = 0;                ///< Parts that hold what it computed
-    std::uint32_t slots = 0;                  ///< of the wave
-    std::uint32_t skip = kernels::no_sphere;  ///< shadow: the light's own sphere
+    std::string stage;                          ///< "intersect", "scatter glossy", ...
+    std::uint32_t bounce = 0;                   ///< how many times the wave's rays have scattered
+    std::uint32_t rays = 0;                     ///< records the stage runs over
+    std::uint32_t bytes = 0;                    ///< read and written per record, as the profile counts them
+    std::uint32_t results = 0;                  ///< Parts that hold what it computed
+    std::uint32_t slots = 0;                    ///< of the wave
+    std::uint32_t target = kernels::no_sphere;  ///< shadow: what all rays end on
     Snapshot before;
     /// Runs the stage of `stages` on the restored queues; returns the records of `results` that it left.
     StageRun<float> run;
 };
 
-/// All the calls a benchmark makes: one per wave.
-using StageCalls = std::vector<StageCall>;
-
 struct Recording {
     std::uint32_t wave_size = 0;
-    std::uint64_t queue_bytes_per_ray = 0;  ///< all queue storage per slot of a wave
     std::vector<StageCall> calls;
 
     /// The calls of a stage at a bounce.

@@ -76,7 +76,7 @@ ORRERY_INLINE Words<V> choose_light(const Lights<V>& lights, const Floats<V>& z,
 
 /// A point of the sphere `id`, sampled from the vertex: from outside or from within, or from its own inner side. From
 /// its own outer side nothing of it is seen. (By reference: what is returned g++ 12 moves through memory, a sixth of
-/// all instructions of connect_area on AVX2.)
+/// all instructions of `connect` towards an area light on AVX2.)
 template <class V, LightStrategy strategy>
 ORRERY_INLINE void sample_sphere(const LitVertex<V>& vertex, const Sphere<Floats<V>>& sphere, const Words<V>& id,
                                  const RandomNumbers<Floats<V>>& random, LightSample<V>& sample) {
@@ -188,7 +188,6 @@ ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<RealOf<V>>& context
         const std::uint32_t i = run.begin + n;
         const auto in_run = first_lanes<V>(run.count - n);
         const U departed = choose(in_run, load<U>(rays.departed + i), U(0u));
-        const U slot = choose(in_run, load<U>(rays.slot + i), U(0u));
         const U id = departed & U(no_sphere);
         const auto inward = !words_equal(departed, id);
         const auto p = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
@@ -207,7 +206,7 @@ ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<RealOf<V>>& context
         }
         const Vec3<F> colour{of(lights.r), of(lights.g), of(lights.b)};
         size = append_shadow<V>(queue, size, p, sample.direction, sample.inverse_distance,
-                                throughput * (colour * sample.factor), departed, slot, arriving);
+                                throughput * (colour * sample.factor), departed, load<U>(rays.slot + i), arriving);
     }
     return size;
 }

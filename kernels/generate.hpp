@@ -7,7 +7,7 @@
 namespace orrery::kernels {
 
 /// A thin lens of radius lens_radius: the pinhole ray's point on the plane in focus is kept, its origin moves over the
-/// lens. `at` is the pinhole ray's point on the image plane at distance 1.
+/// lens. (x, y) is the pinhole ray's point on the image plane at distance 1.
 template <class V, bool has_lens>
 ORRERY_INLINE void camera_ray(const CameraTable<RealOf<V>>& camera, const Floats<V>& x, const Floats<V>& y,
                               const RandomNumbers<Floats<V>>& random, Vec3Of<V>& origin, Vec3Of<V>& direction) {
@@ -38,7 +38,6 @@ void generate(const CameraTable<RealOf<V>>& camera, const Slots<V>& slots, std::
     constexpr int dimensions = has_lens ? 4 : 2;
     const bool sobol = slots.sobol.x != nullptr;
     if (sobol) draw_sobol<V, dimensions>(slots, {slots.pixel, slots.sample, nullptr}, {0, count}, key, 0);
-    const U lane = truncate_to_word(load<F>(detail::iota_table<RealOf<V>>));
     const F zero(0), one(1);
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const U pixel = load<U>(slots.pixel + i);
@@ -56,7 +55,7 @@ void generate(const CameraTable<RealOf<V>>& camera, const Slots<V>& slots, std::
         if (rays.pdf != nullptr) save(rays.pdf + i, F(std::numeric_limits<RealOf<V>>::infinity()));
         if (rays.eta_scale != nullptr) save(rays.eta_scale + i, one);
         save(rays.departed + i, U(Word{no_sphere}));
-        save(rays.slot + i, lane + U(Word{i}));
+        save(rays.slot + i, consecutive<V>(i));
         save(rays.pixel + i, pixel);
         save(rays.sample + i, sample);
         if (rays.vertex != nullptr) save(rays.vertex + i, U(Word{1}));

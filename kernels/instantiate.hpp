@@ -14,7 +14,7 @@
 namespace orrery::kernels {
 
 /// V: one vector. W: what the stages with long chains of dependent operations work on. S: what loops over spheres do;
-/// two vectors of rays and their closest hits fit AVX-512's 32 registers, not AVX2's 16.
+/// two vectors of rays and their closest hits fit AVX-512's 32 registers, not AVX2's 16 (SSE2 takes two all the same).
 template <class V, class W = TwinLanes<V>, class S = W>
 constexpr Stages<RealOf<V>> make_stages(Isa isa) {
     Stages<RealOf<V>> s{};

@@ -49,7 +49,7 @@ ORRERY_INLINE Mask<V> inner_root_before(const Spheres<V>& spheres, const Vec3Of<
     using U = Words<V>;
     const U departed_id = departed & U(no_sphere);
     const auto inward = !words_equal(departed, departed_id) && !words_equal(departed_id, U(target));
-    if (!any(inward)) return no_lane<V>();
+    if (!any(inward)) return inward;
     const F t = inner_far_root(o, d, gather_sphere<V>(spheres, choose(inward, departed_id, U(0u))));
     return inward && t * inverse_t_max < F(1);
 }
@@ -110,8 +110,8 @@ ORRERY_INLINE Words<V> targets_at(const WordOf<RealOf<V>>* target, std::uint32_t
 /// Whether any sphere but `target` (one for all segments, or a vector) is met with t_min < t < t_max, given 1 / t_max
 /// (0 for no end).
 ///
-/// From the origin the near root c / (b + s) lies before t_max exactly when g = c / t_max - b is negative or g^2 <
-/// disc: no square root and no division per sphere. The far root counts from within a sphere only, which is rare.
+/// From the origin `near_root_before` tells of the near root; the far one counts from within a sphere only, which is
+/// rare.
 template <class V, class Among, class Start, class Target>
 ORRERY_INLINE Mask<V> any_hit(const Spheres<V>& spheres, const Among& among, const Vec3Of<V>& o, const Vec3Of<V>& d,
                               const Words<V>& departed, const Start& t_min, const Floats<V>& inverse_t_max,

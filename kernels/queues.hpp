@@ -136,10 +136,10 @@ struct SlotTable {
 template <class Real>
 struct BranchStack {
     using Word = WordOf<Real>;
-    std::uint32_t slots = 0;   ///< stride between levels
-    std::uint32_t levels = 0;  ///< the greatest depth: depth-first, one branch per level is pending at most
-    Word* height = nullptr;    ///< by slot: pending branches
-    RayQueue<Real> rays{};     ///< levels * slots entries; without pixel and sample, which the slot knows
+    std::uint32_t slots = 0;  ///< stride between levels
+    Word* height = nullptr;   ///< by slot: pending branches
+    RayQueue<Real> rays{};    ///< as many levels of `slots` entries as the greatest depth, since depth-first one branch
+                              ///< a level is pending at most; without pixel and sample, which the slot knows
 };
 
 /// A run of a queue; begin is a multiple of `widest`.

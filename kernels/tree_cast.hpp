@@ -26,6 +26,14 @@ struct TreeSource {
     const Real* t_min;
 };
 
+/// Those of a queue from its entry `first` on.
+template <class Queue>
+ORRERY_INLINE auto source_of(const Queue& q, std::uint32_t first) {
+    return TreeSource<std::remove_pointer_t<decltype(q.ox)>>{q.ox + first,       q.oy + first, q.oz + first,
+                                                             q.dx + first,       q.dy + first, q.dz + first,
+                                                             q.departed + first, nullptr};
+}
+
 /// The first root of a chord that a ray of the source may take.
 template <class Real>
 ORRERY_INLINE Root<ScalarLanes<Real>> first_root(const TreeSource<Real>& source, std::uint32_t ray,
@@ -136,10 +144,7 @@ void intersect_tree(const Spheres<V>& spheres, const Rays<V>& rays, std::uint32_
             continue;
         }
         for (std::uint32_t i = 0; i < packet_size; ++i) found.t[i] = std::numeric_limits<Real>::infinity();
-        closest_in_tree<V>(spheres,
-                           {rays.ox + first, rays.oy + first, rays.oz + first, rays.dx + first, rays.dy + first,
-                            rays.dz + first, rays.departed + first, nullptr},
-                           packet, found);
+        closest_in_tree<V>(spheres, source_of(rays, first), packet, found);
         for (std::uint32_t i = 0; i < packet; i += V::count) {
             save(hits.t + first + i, load<F>(found.t + i));
             save(hits.id + first + i, load<U>(found.id + i));
@@ -161,10 +166,8 @@ ORRERY_INLINE void shadow_in_tree(const Spheres<V>& spheres, const Shadows<V>& q
             shadow_among<V>(spheres, list, queue, first, first + packet, target, slots);
             continue;
         }
-        occluded_in_tree<V>(spheres,
-                            {queue.ox + first, queue.oy + first, queue.oz + first, queue.dx + first, queue.dy + first,
-                             queue.dz + first, queue.departed + first, nullptr},
-                            queue.inverse_t_max + first, packet, targets_behind(target, first), occluded);
+        occluded_in_tree<V>(spheres, source_of(queue, first), queue.inverse_t_max + first, packet,
+                            targets_behind(target, first), occluded);
         for (std::uint32_t i = 0; i < packet; i += V::count) {
             const auto live = first_lanes<V>(packet - i);
             const auto lit = live && words_equal(load<U>(occluded + i), U(0u));

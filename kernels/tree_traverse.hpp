@@ -94,16 +94,6 @@ struct TreeStack {
     Word met[room];  ///< bit c: the ray has met child c
 };
 
-/// first, first + 1, ... in the lanes.
-template <class V>
-ORRERY_INLINE Words<V> consecutive(std::uint32_t first) {
-    if constexpr (V::count == 1) {
-        return first;
-    } else {
-        return truncate_to_word(load<Floats<V>>(detail::iota_table<RealOf<V>>)) + Words<V>(first);
-    }
-}
-
 /// Writes for every ray of the list which children it meets before its limit, and none for a vector behind the last.
 /// Returns those any ray meets.
 template <class V, std::uint32_t capacity>

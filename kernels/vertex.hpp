@@ -43,8 +43,7 @@ ORRERY_INLINE Vertex<V> vertex_at(const Spheres<V>& spheres, const Vec3Of<V>& or
 /// A vector of a run's rays where they arrive.
 template <class V>
 struct Arriving {
-    Mask<V> live;   ///< in the run, and met something: an unsorted run holds its misses too
-    Words<V> slot;  ///< 0 outside the run
+    Mask<V> live;  ///< in the run, and met something: an unsorted run holds its misses too
     Vec3Of<V> direction;
     Vertex<V> vertex;
 };
@@ -59,7 +58,7 @@ ORRERY_INLINE Arriving<V> arriving(const Spheres<V>& spheres, const Rays<V>& ray
     const U met = load<U>(hits.id + i);
     const auto live = in_run && !words_equal(met, U(no_sphere));
     const auto direction = load3<V>(rays.dx + i, rays.dy + i, rays.dz + i);
-    return {live, choose(in_run, load<U>(rays.slot + i), U(0u)), direction,
+    return {live, direction,
             vertex_at<V>(spheres, load3<V>(rays.ox + i, rays.oy + i, rays.oz + i), direction, load<F>(hits.t + i),
                          choose(live, met, U(0u)))};
 }

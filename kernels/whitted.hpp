@@ -72,7 +72,7 @@ void branch(const ScatterContext<RealOf<V>>& context, Range run, const Rays<V>& 
 
         alignas(64) Word slot_of[V::count], node_of[V::count], departed_of[V::count];
         alignas(64) Real numbers[9][V::count];
-        save(slot_of, in.slot);
+        save(slot_of, load<U>(rays.slot + i));
         save(node_of, node);
         save(departed_of, mirror_departed);
         save3<V>(numbers[0], numbers[1], numbers[2], vertex.position);

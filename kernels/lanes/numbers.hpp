@@ -40,11 +40,6 @@ ORRERY_INLINE std::uint32_t bits(const xsimd::batch_bool<Real, Arch>& m) {
     }
 }
 
-template <class V>
-ORRERY_INLINE Mask<V> no_lane() {
-    return Mask<V>(false);
-}
-
 namespace detail {
 template <class Real>
 inline constexpr Real iota_table[32] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15,
@@ -56,6 +51,12 @@ template <class V>
 ORRERY_INLINE Mask<V> first_lanes(std::uint32_t n) {
     using Real = RealOf<V>;
     return load<Floats<V>>(detail::iota_table<Real>) < Floats<V>(static_cast<Real>(n));
+}
+
+/// first, first + 1, ... in the lanes.
+template <class V>
+ORRERY_INLINE Words<V> consecutive(std::uint32_t first) {
+    return truncate_to_word(load<Floats<V>>(detail::iota_table<RealOf<V>>)) + Words<V>(first);
 }
 
 // --- arithmetic ---------------------------------------------------------------------------------------------------

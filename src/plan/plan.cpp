@@ -1,6 +1,7 @@
 #include "plan/plan.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -55,8 +56,8 @@ void Plan::plan_camera() {
     frame_ = {x, y, z};
     frame_.half_height = std::tan(from.fov * std::numbers::pi / 360);
     frame_.half_width = frame_.half_height * from.aspect;
-    frame_.cell_width = 2 * frame_.half_width / settings().width / strata_;
-    frame_.cell_height = 2 * frame_.half_height / settings().height / strata_;
+    frame_.cell_width = cell_width(strata_);
+    frame_.cell_height = cell_height(strata_);
 }
 
 /// Few spheres keep their order; many take their tree's.
@@ -108,7 +109,7 @@ void Plan::plan_needs() {
     }
     needs_.emitters = emitters_ > 0;
     needs_.background = shines(scene_.background);
-    needs_.sort = std::has_single_bit(needs_.scattering) == false && needs_.scattering != 0;
+    needs_.sort = std::popcount(needs_.scattering) > 1;
     if (s.integrator == Integrator::whitted) {
         if (point_lights_ > 0) needs_.connect_point = diffuse;
         if (emitters_ > 0) needs_.connect_area = diffuse;

@@ -77,6 +77,9 @@ public:
     /// Half the image plane at distance 1: x in [-half_width, half_width], y likewise.
     double half_width() const { return frame_.half_width; }
     double half_height() const { return frame_.half_height; }
+    /// A cell there of a pixel with strata x strata of them.
+    double cell_width(std::uint32_t strata) const { return 2 * frame_.half_width / settings().width / strata; }
+    double cell_height(std::uint32_t strata) const { return 2 * frame_.half_height / settings().height / strata; }
     /// In which the tables' lengths are.
     const LengthUnit& unit() const { return unit_; }
 

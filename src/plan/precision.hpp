@@ -7,9 +7,10 @@
 // It is the size of the error, not its last factor: arithmetic on the way to n adds a few roundings of the same size,
 // mostly along the surface.
 //
-// Where it matters. An error is seen where it is larger than what a pixel covers there, and does harm where it is not
-// small against what is near: shadows of the smallest sphere, or the camera's own distance from the surface. Both must
-// be, or a world of large spheres far away would be called too coarse for nothing.
+// Where it matters. An error is seen where it is larger than what a pixel covers there (of wide pixels: than 1/128 of
+// the distance), and does harm where it is not small against what is near: shadows of the smallest sphere, or the
+// camera's own distance from the surface. Both must be, or a world of large spheres far away would be called too coarse
+// for nothing.
 #pragma once
 
 #include <optional>

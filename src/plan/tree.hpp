@@ -1,4 +1,5 @@
-// Many spheres: the tree of boxes that the kernels traverse (kernels/tree.hpp), built by the surface area heuristic.
+// Many spheres: the tree of boxes that the kernels traverse (kernels/tables.hpp, kernels/tree_traverse.hpp), built by
+// the surface area heuristic.
 #pragma once
 
 #include <cstdint>

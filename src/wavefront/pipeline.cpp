@@ -39,7 +39,6 @@ Pipeline<Real>::Pipeline(const Plan& plan, const Table& stages) {
         settings.light_sampling == LightSampling::cone ? kernels::LightStrategy::cone : kernels::LightStrategy::area;
     emission = needs.emitters || needs.background;
     sphere_step = needs.tree ? 0 : stages.sphere_step;
-    lit_by_areas = needs.connect_area;
     for (std::uint32_t k = 0; k < kernels::scattering_count; ++k) {
         const auto kind = static_cast<kernels::Scattering>(k);
         if (needs.scatters(kind)) kinds.push_back(kind);

@@ -75,12 +75,7 @@ struct Pipeline {
     bool emission;                           ///< rays may run into light
     std::vector<kernels::Scattering> kinds;  ///< ways of scattering there are
     std::vector<kernels::Scattering> lit;    ///< those whose vertices sample lights
-    std::uint32_t lit_by_areas;              ///< bits of those that sample area lights, and not point lights alone
     std::uint32_t roulette_from;             ///< the first bounce at which it is played; the largest number: never
-
-    const kernels::LightTable<Real>& lights_of(kernels::Scattering kind, const Tables<Real>& tables) const {
-        return tables.lights((lit_by_areas & kernels::bit_of(kind)) != 0);
-    }
 };
 
 }  // namespace orrery

@@ -51,8 +51,7 @@ template <class Real>
 std::uint32_t fill(Wave<Real>& wave, std::uint32_t x, std::uint32_t y, const Pattern& pattern, std::uint32_t begin) {
     const Plan& plan = wave.plan;
     const bool one_cell = pattern.strata == 1;
-    const double cell_width = 2 * plan.half_width() / plan.settings().width / pattern.strata;
-    const double cell_height = 2 * plan.half_height() / plan.settings().height / pattern.strata;
+    const double cell_width = plan.cell_width(pattern.strata), cell_height = plan.cell_height(pattern.strata);
     const double left = (2.0 * x / plan.settings().width - 1) * plan.half_width();
     const double top = (1 - 2.0 * y / plan.settings().height) * plan.half_height();
     const std::uint32_t pixel = y * plan.settings().width + x;
@@ -99,10 +98,9 @@ std::uint32_t choose_wave_size(const Plan& plan, std::uint32_t asked) {
 template <class Real>
 void render_tile(Wave<Real>& wave, const Task& task) {
     const auto& [tile, pattern] = task;
-    const RenderSettings& settings = wave.plan.settings();
     wave.camera = wave.tables.camera;
-    wave.camera.cell_width = static_cast<Real>(2 * wave.plan.half_width() / settings.width / pattern.strata);
-    wave.camera.cell_height = static_cast<Real>(-2 * wave.plan.half_height() / settings.height / pattern.strata);
+    wave.camera.cell_width = static_cast<Real>(wave.plan.cell_width(pattern.strata));
+    wave.camera.cell_height = static_cast<Real>(-wave.plan.cell_height(pattern.strata));
     wave.contrasts.begin(pattern.strata, pattern.visits > 1);
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {

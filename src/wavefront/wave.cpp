@@ -146,19 +146,19 @@ void Wave<Real>::direct_lighting(const Runs& runs, std::uint32_t bounce) {
     for (const Scattering kind : pipeline.lit) {
         const Range vertices = runs.run[static_cast<std::size_t>(kind)];
         if (vertices.count == 0) continue;
-        const kernels::LightTable<Real>& lights = pipeline.lights_of(kind, tables);
+        const auto& lights = tables.lights((plan.needs().connect_area & kernels::bit_of(kind)) != 0);
         if (lights.cells != 0) {
-            light(kind, vertices, kernels::chosen_light, bounce);
+            light(kind, lights, vertices, kernels::chosen_light, bounce);
         } else {
-            for (std::uint32_t l = 0; l < lights.count; ++l) light(kind, vertices, l, bounce);
+            for (std::uint32_t l = 0; l < lights.count; ++l) light(kind, lights, vertices, l, bounce);
         }
     }
 }
 
 /// The vertices of a run towards one light, or each towards the one it chooses; and what of that arrives.
 template <class Real>
-void Wave<Real>::light(Scattering kind, const Range& vertices, std::uint32_t which, std::uint32_t bounce) {
-    const kernels::LightTable<Real>& lights = pipeline.lights_of(kind, tables);
+void Wave<Real>::light(Scattering kind, const kernels::LightTable<Real>& lights, const Range& vertices,
+                       std::uint32_t which, std::uint32_t bounce) {
     const kernels::Response response = kernels::traits_of(kind).response;
     const bool chosen = which == kernels::chosen_light;
     const std::uint32_t bytes = words<Real>(3 + 3 + 4) + record_bytes(storage.shadows) +
@@ -178,14 +178,12 @@ void Wave<Real>::light(Scattering kind, const Range& vertices, std::uint32_t whi
     const std::uint32_t rays = aimed.run[0].count;
     if (rays == 0) return;
     const std::uint32_t target = chosen ? kernels::no_sphere : static_cast<std::uint32_t>(lights.sphere[which]);
-    call({shadow_info,
-          bounce,
-          {0, rays},
-          record_bytes(storage.shadows) + 2 * words<Real>(4),
-          pipeline.sphere_step,
-          "",
-          0,
-          target},
+    call({.stage = shadow_info,
+          .bounce = bounce,
+          .records = {0, rays},
+          .bytes = record_bytes(storage.shadows) + 2 * words<Real>(4),
+          .lanes = pipeline.sphere_step,
+          .target = target},
          [&spheres = tables.spheres, stage = pipeline.shadow, rays, target](const auto& s, auto& q) {
              (s.*stage)(spheres, q.shadows, rays, target, q.slots);
              return only({0, rays});

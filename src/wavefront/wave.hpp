@@ -82,7 +82,9 @@ private:
     /// Makes a call, and charges time and traffic to its place in the profile.
     template <class Make>
     kernels::Runs call(const StageCall& what, const Make& make);
-    void light(kernels::Scattering kind, const kernels::Range& vertices, std::uint32_t which, std::uint32_t bounce);
+    /// `lights`: a member of the plan's tables, which recorded calls refer to.
+    void light(kernels::Scattering kind, const kernels::LightTable<Real>& lights, const kernels::Range& vertices,
+               std::uint32_t which, std::uint32_t bounce);
 };
 
 /// The integrators: each takes a wave whose slots are filled to its end and leaves the radiance in the slots

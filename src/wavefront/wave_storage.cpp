@@ -85,7 +85,6 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
     }
     if (needs.branches) {
         branches.slots = slot_count;
-        branches.levels = depth;
         carver.field(branches.height, padded);
         ray_fields(branches.rays, std::size_t{slot_count} * depth);
         branches.rays.pixel = branches.rays.sample = nullptr;  // the slot knows them

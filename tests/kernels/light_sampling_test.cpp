@@ -1,4 +1,4 @@
-// Directions that `connect_area` draws towards a light: their distribution, the density claimed for them, and that the
+// Directions that `connect` draws towards a light: their distribution, the density claimed for them, and that the
 // two halves of multiple importance sampling share the light between them.
 #include <functional>
 

@@ -22,7 +22,6 @@ struct Stack {
     Stack(std::uint32_t slots, std::uint32_t levels)
         : rays(std::size_t{slots} * levels, Rays::InTrees{}, {"pdf", "eta_scale", "pixel", "sample"}), heights(slots) {
         view.slots = slots;
-        view.levels = levels;
         view.height = heights->id;
         view.rays = *rays;
         for (std::uint32_t s = 0; s < slots; ++s) view.height[s] = 0;

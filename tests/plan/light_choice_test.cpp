@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -15,7 +14,6 @@ namespace orrery::test {
 namespace {
 
 using enum MaterialKind;
-using kernels::no_sphere;
 
 constexpr double whole = 1 << AliasTable::bits;
 
