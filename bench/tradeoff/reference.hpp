@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "film/film.hpp"
+#include "image/image.hpp"
 #include "scene/scene.hpp"
 
 namespace orrery::tradeoff {

@@ -26,7 +26,12 @@ constexpr Command commands[] = {{"render", "Render a scene to an image", add_ren
                                 {"info", "Show how a scene would be rendered, and why so", add_info},
                                 {"generate", "Write a scene of as many spheres as you like", add_generate},
                                 {"compare", "Measure how much two images differ", add_compare}};
-constexpr const char* a_command = "a command, render, info, generate or compare";
+
+std::string a_command() {
+    std::vector<std::string_view> names;
+    for (const Command& command : commands) names.push_back(command.name);
+    return fmt::format("a command, {} or {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+}
 
 /// The words that nobody knows, and what they could have meant. Empty where there is none.
 std::string unknown_words(const CLI::App& app) {
@@ -46,9 +51,9 @@ std::string unknown_words(const CLI::App& app) {
     }
     const std::vector<std::string_view> known(names.begin(), names.end());
     const std::string_view near = Spelling().likely(word.substr(0, word.find('=')), known);
-    const char* const expected = option != words.end() ? "an option that --help names"
+    const std::string expected = option != words.end() ? "an option that --help names"
                                  : names.empty()       ? "no further argument"
-                                                       : a_command;
+                                                       : a_command();
     return fmt::format("found {}, expected {}{}", in_quotes(word), expected,
                        near.empty() ? "" : fmt::format("; did you mean {}?", near));
 }
@@ -59,7 +64,7 @@ std::string fault_in(const CLI::App& app, const CLI::ParseError& error) {
     std::string fault = unknown_words(chosen.empty() ? app : *chosen.front());
     // CLI11 says that a subcommand is required, not which there are.
     if (fault.empty() && chosen.empty() && error.get_name() == "RequiredError")
-        fault = fmt::format("expected {}", a_command);
+        fault = fmt::format("expected {}", a_command());
     if (fault.empty()) fault = printable_whole(error.what());
     const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
     return fmt::format("orrery: error: {}\nTry: {}{} --help\n", fault, typed_command(), command);

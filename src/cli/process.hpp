@@ -24,7 +24,7 @@ struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The project's version as CMakeLists.txt states it, "1.2.3".
+/// The project's version, "1.2.3"; configured in a checkout also its revision, "1.2.3+0123abcde".
 std::string_view version();
 
 // Standard output carries what a script may read, standard error what a person may.

@@ -224,7 +224,7 @@ Metadata image_metadata(const Plan& plan, ImageFormat format, const Making& maki
     const RenderSettings& settings = plan.settings();
     Metadata metadata = {{"scene", plan.scene().file.filename().string()},
                          {"seed", std::to_string(settings.seed)},
-                         {"samples", fmt::format("{}", making.samples > 0 ? making.samples : plan.samples())},
+                         {"samples", fmt::format("{}", making.samples)},
                          {"options", canonical_options(settings, making.goal, format)},
                          {"version", fmt::format("orrery {}", version())}};
     if (making.content != "radiance") metadata.emplace_back("content", making.content);

@@ -29,14 +29,14 @@ std::string statistics_json(const Plan& plan, const Goal& goal, const RenderStat
 /// What a plan does not say about an image.
 struct Making {
     Goal goal = {};
-    double samples = 0;                     ///< per pixel, the mean; 0: the plan's
+    double samples = 0;                     ///< per pixel, the mean
     std::string_view content = "radiance";  ///< what the pixels are; said where it is not this
 };
 
 /// Scene (the file's name, not the folders of somebody's machine), seed, samples, options and version. Nothing that
 /// threads, waves, the machine or the clock decide: the same seed gives the same bytes.
 /// The exception is a goal of time.
-Metadata image_metadata(const Plan& plan, ImageFormat format, const Making& making = {});
+Metadata image_metadata(const Plan& plan, ImageFormat format, const Making& making);
 
 /// Indented, with a newline at its end. In ASCII: names of files may hold what a terminal should not see, and need not
 /// be UTF-8, which JSON must be.

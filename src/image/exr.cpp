@@ -9,9 +9,10 @@
 #include <openexr.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <limits>
+#include <new>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 

@@ -32,13 +32,24 @@ std::string_view without_preamble(std::string_view what) {
     return what;
 }
 
+/// Empties lists and objects, the innermost first.
+void clear(Json& value) noexcept {
+    if (auto* const list = value.get_ptr<Json::array_t*>()) {
+        for (Json& element : *list) clear(element);
+        list->clear();
+    } else if (auto* const object = value.get_ptr<Json::object_t*>()) {
+        for (auto& [key, member] : *object) clear(member);
+        object->clear();
+    }
+}
+
 /// Builds the tree from the parser's events. The library's own builder knows neither repeated keys nor a limit to
 /// nesting, and says where a fault is only in some of its messages.
 class Builder final : public nlohmann::json_sax<Json> {
 public:
     Builder(std::string_view text, Report& report) : text_(text), report_(report) {}
 
-    Json take() { return std::move(root_); }
+    JsonTree take() { return std::move(root_); }
 
     bool null() override { return put(nullptr), true; }
     bool boolean(bool value) override { return put(value), true; }
@@ -57,7 +68,10 @@ public:
         const auto [member, is_new] = object.value->get_ref<Json::object_t&>().try_emplace(std::move(name));
         object.key = &member->first;
         object.member = &member->second;
-        if (!is_new) report_.add(Severity::error, where(), "found this key a second time, expected it once per object");
+        if (!is_new) {
+            report_.add(Severity::error, where(), "found this key a second time, expected it once per object");
+            clear(member->second);
+        }
         return true;
     }
 
@@ -83,7 +97,7 @@ private:
 
     /// Puts a value into the innermost list or object. Returns where it is: for as long as that gets no other.
     Json* put(Json value) {
-        if (open_.empty()) return &(root_ = std::move(value));
+        if (open_.empty()) return &(*root_ = std::move(value));
         if (Json* const member = open_.back().member) return &(*member = std::move(value));
         return &open_.back().value->emplace_back(std::move(value));
     }
@@ -109,26 +123,31 @@ private:
 
     std::string_view text_;
     Report& report_;
-    Json root_;
+    JsonTree root_{new Json};
     std::vector<Open> open_;  ///< outermost first
 };
 
 }  // namespace
 
-std::optional<Json> parse_json(std::string_view text, Report& report) {
+void TakeDown::operator()(Json* root) const noexcept {
+    clear(*root);
+    delete root;
+}
+
+JsonTree parse_json(std::string_view text, Report& report) {
     // The library takes a NUL for the end of the text and would not look at what follows. No JSON holds one.
     if (const auto nul = text.find('\0'); nul != text.npos) {
         report.add(Severity::error, line_and_column(text, nul), "found a NUL byte, expected JSON text in UTF-8");
-        return std::nullopt;
+        return nullptr;
     }
     // Versions of the library word this one differently.
     if (text.find_first_not_of(" \t\r\n") == text.npos) {
         report.add(Severity::error, line_and_column(text, text.size()),
                    "found the end of the text and nothing before it, expected a scene in JSON");
-        return std::nullopt;
+        return nullptr;
     }
     Builder builder(text, report);
-    if (!Json::sax_parse(text.begin(), text.end(), &builder)) return std::nullopt;
+    if (!Json::sax_parse(text.begin(), text.end(), &builder)) return nullptr;
     return builder.take();
 }
 

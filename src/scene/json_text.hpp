@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <memory>
 #include <string_view>
 
 #include "scene/json_node.hpp"
@@ -14,9 +14,16 @@ namespace orrery {
 /// recursively within the stack.
 inline constexpr std::size_t deepest_nesting = 100;
 
-/// The value that `text` spells. Absent after a syntax error (reported as "line:column", columns in characters), a
+/// Takes a tree down from its leaves, in place: the library's destructor allocates, and where memory is short
+/// std::bad_alloc out of a destructor would end the program. Recursive, within deepest_nesting.
+struct TakeDown {
+    void operator()(Json* root) const noexcept;
+};
+using JsonTree = std::unique_ptr<Json, TakeDown>;
+
+/// The value that `text` spells. Null after a syntax error (reported as "line:column", columns in characters), a
 /// number beyond the range of a double, or nesting too deep. A key given twice in one object is an error, too, but
 /// reading goes on with the last of its values.
-std::optional<Json> parse_json(std::string_view text, Report& report);
+JsonTree parse_json(std::string_view text, Report& report);
 
 }  // namespace orrery

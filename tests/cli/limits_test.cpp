@@ -77,11 +77,12 @@ void feed_for_ever(const fs::path& pipe, const std::string& begin, const std::st
 }
 
 TEST_F(Limits, OutOfMemoryWhileReadingIsAFailureWithOneMessage) {
-    // The text itself, a text within it, lists of numbers: each is more than there is room for.
+    // The text itself, a text within it, lists of numbers, of lists and of texts: each is more than there is room for.
     const std::string blanks(65536, ' '), letters(65536, 'x');
-    std::string numbers;
-    while (numbers.size() < 65536) numbers += "1,";
-    const std::pair<std::string, std::string> endless[] = {{"", blanks}, {"{\"", letters}, {"[", numbers}};
+    std::string numbers, lists, texts;
+    while (numbers.size() < 65536) numbers += "1,", lists += "[],", texts += "\"twenty letters of text\",";
+    const std::pair<std::string, std::string> endless[] = {
+        {"", blanks}, {"{\"", letters}, {"[", numbers}, {"[", lists}, {"{\"a\":[", texts}};
     for (const auto& text : endless) {
         fs::remove(folder / "pipe");
         ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);

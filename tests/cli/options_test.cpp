@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "image/codec.hpp"
 #include "kernels/isa.hpp"

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
+#include "support/setting_json.hpp"
 #include "world.hpp"
 
 namespace orrery::test {
@@ -29,13 +30,10 @@ protected:
         const auto last = static_cast<std::uint32_t>(setting_.words.size() - 1);
         return {last != setting_.member.get(RenderSettings{})[0] ? last : 0};
     }
-    Json in_file() const {
-        const SettingValue value = another();
-        if (setting_.kind == SettingKind::word) return setting_.words[value[0]];
-        return setting_.kind == SettingKind::number ? Json(value[0]) : Json(value);
-    }
     /// As --stats has it.
-    Json told() const { return setting_.kind == SettingKind::word ? Json(text_of(setting_, another())) : in_file(); }
+    Json told(SettingValue value) const {
+        return setting_.kind == SettingKind::word ? Json(text_of(setting_, value)) : in_file<Json>(setting_, value);
+    }
     std::string option() const { return "--" + std::string(setting_.option); }
     std::string underscored() const {
         std::string name(setting_.option);
@@ -58,21 +56,19 @@ protected:
 };
 
 TEST_P(Settings, IsTakenFromTheCommandLine) {
-    ASSERT_NE(stats({})[underscored()], told());
-    EXPECT_EQ(stats({option(), text_of(setting_, another())})[underscored()], told());
+    ASSERT_NE(stats({})[underscored()], told(another()));
+    EXPECT_EQ(stats({option(), text_of(setting_, another())})[underscored()], told(another()));
     EXPECT_THAT(load(folder_ / "x.png"), HasSubstr(option() + " " + text_of(setting_, another())));
 }
 
 TEST_P(Settings, IsTakenFromTheSceneUnlessTheCommandLineSaysOtherwise) {
-    world_["scene"]["renderer"][std::string(setting_.key)] = in_file();
+    world_["scene"]["renderer"][std::string(setting_.key)] = in_file<Json>(setting_, another());
     store(folder_ / "scene.json", to_bytes(world_.dump()));
-    EXPECT_EQ(stats({})[underscored()], told());
-    const std::string usual =
-        text_of(setting_, setting_.kind == SettingKind::size     ? SettingValue{3, 2}
-                          : setting_.kind == SettingKind::number ? SettingValue{4}
-                                                                 : setting_.member.get(RenderSettings{}));
-    const Json other = stats({option(), usual});
-    EXPECT_NE(other[underscored()], told());
+    EXPECT_EQ(stats({})[underscored()], told(another()));
+    const SettingValue third = setting_.kind == SettingKind::size     ? SettingValue{3, 2}
+                               : setting_.kind == SettingKind::number ? SettingValue{4}
+                                                                      : SettingValue{another()[0] == 1 ? 0u : 1u};
+    EXPECT_EQ(stats({option(), text_of(setting_, third)})[underscored()], told(third));
 }
 
 TEST_P(Settings, IsShownByInfo) {

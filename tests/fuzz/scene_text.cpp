@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/settings.hpp"
+#include "support/setting_json.hpp"
 
 namespace orrery::fuzz {
 
@@ -36,17 +37,8 @@ Json material(const Material& m) {
 
 Json renderer(const RenderSettings& settings) {
     Json json;
-    for (const Setting& setting : all_settings()) {
-        const SettingValue value = setting.member.get(settings);
-        Json& field = json[std::string(setting.key)];
-        if (setting.kind == SettingKind::word) {
-            field = setting.words.at(value[0]);
-        } else if (setting.kind == SettingKind::number) {
-            field = value[0];
-        } else {
-            field = value;
-        }
-    }
+    for (const Setting& setting : all_settings())
+        json[std::string(setting.key)] = test::in_file<Json>(setting, setting.member.get(settings));
     return json;
 }
 

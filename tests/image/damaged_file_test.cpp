@@ -1,5 +1,8 @@
 // Truncated and mutated files: an image or a fault, never a crash, and never memory the file's size does not justify.
 #include <gtest/gtest.h>
+#include <openexr.h>
+
+#include <new>
 
 #include "image/codec.hpp"
 #include "mutation.hpp"
@@ -9,6 +12,13 @@
 
 namespace orrery {
 namespace {
+
+/// OpenEXRCore takes memory from malloc, which nobody watches, unless told where else.
+const bool exr_is_watched = [] {
+    exr_set_default_memory_routines([](std::size_t size) { return ::operator new(size, std::nothrow); },
+                                    [](void* memory) { ::operator delete(memory); });
+    return true;
+}();
 
 /// Files of a few hundred bytes: 1032 times that, and the chunk EXR always gets, stay below this.
 constexpr std::size_t justified_bytes = std::size_t{72} << 20;

@@ -1,10 +1,10 @@
-// An EXR reader that shares no code with the one in the product: OpenEXRCore, the C implementation.
+// An EXR reader that shares no code with encode_exr: OpenEXRCore, which decode_exr uses too, by lines of its own here.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-#include "film/film.hpp"
+#include "image/image.hpp"
 
 namespace orrery::test {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "film/film.hpp"
+#include "image/image.hpp"
 
 namespace orrery::test {
 

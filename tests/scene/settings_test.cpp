@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "scene/world.hpp"
+#include "support/setting_json.hpp"
 
 namespace orrery::test {
 namespace {
@@ -18,12 +19,6 @@ std::string text_of_file(const std::string& name) {
     std::stringstream text;
     text << std::ifstream(scenes_folder() / name).rdbuf();
     return text.str();
-}
-
-/// As a scene file has it.
-Json in_file(const Setting& setting, SettingValue value) {
-    if (setting.kind == SettingKind::word) return setting.words.at(value[0]);
-    return setting.kind == SettingKind::number ? Json(value[0]) : Json(value);
 }
 
 SettingValue default_of(const Setting& setting) { return setting.member.get(RenderSettings{}); }
@@ -50,7 +45,7 @@ Json schema_of(const Setting& setting) {
     } else {
         json.update({{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}});
     }
-    if (!setting.required) json["default"] = in_file(setting, default_of(setting));
+    if (!setting.required) json["default"] = in_file<Json>(setting, default_of(setting));
     return json;
 }
 
@@ -112,7 +107,7 @@ TEST(Settings, TakeEveryValueFromSceneAndCommandLine) {
             EXPECT_EQ(value_of(setting, text), value) << setting.key << ' ' << text;
             if (setting.kind == SettingKind::size) continue;  // which the memory may not hold
             Json json = world();
-            json["scene"]["renderer"][std::string(setting.key)] = in_file(setting, value);
+            json["scene"]["renderer"][std::string(setting.key)] = in_file<Json>(setting, value);
             const ReadResult result = read(json);
             ASSERT_TRUE(result.scene.has_value()) << listing(result);
             EXPECT_TRUE(result.diagnostics.empty()) << listing(result);
