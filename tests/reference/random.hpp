@@ -24,6 +24,16 @@ public:
         return {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
     }
 
+    /// Uniform over the unit directions whose angle with `axis` (of any length) has a cosine of `least_cosine` or more.
+    glm::dvec3 in_cone(const glm::dvec3& axis, double least_cosine) {
+        const glm::dvec3 z = glm::normalize(axis);
+        const glm::dvec3 x =
+            glm::normalize(glm::cross(z, std::abs(z.x) < 0.5 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0}));
+        const double cosine = 1 - uniform() * (1 - least_cosine), azimuth = 2 * std::numbers::pi * uniform();
+        const double sine = std::sqrt(1 - cosine * cosine);
+        return cosine * z + sine * (std::cos(azimuth) * x + std::sin(azimuth) * glm::cross(z, x));
+    }
+
     /// Uniform in the unit disk z = 0.
     glm::dvec3 in_disk() {
         for (;;) {

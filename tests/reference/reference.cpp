@@ -77,6 +77,8 @@ private:
             radiance += throughput * from_point_lights(v);
             emission_counted = options_.next_event && v.diffuse();
             if (emission_counted) radiance += throughput * from_area_lights(v, random);
+            if (options_.caustics)
+                radiance += throughput * from_caustics(v, scene_.settings.depth - events - 1, random);
             throughput *= scatter(v, ray, random);
             if (throughput == dvec3{0}) return radiance;
         }
@@ -153,6 +155,66 @@ private:
             sum += response(v, direction) * *light.emission * (area * std::abs(cosine) / (distance * distance));
         }
         return sum;
+    }
+
+    bool smooth(const Primitive& sphere) const {
+        const MaterialKind kind = scene_.materials[sphere.material].kind;
+        return kind == MaterialKind::specular || kind == MaterialKind::dielectric;
+    }
+
+    // Point lights over one smooth sphere that has vertex and light outside: off it, through it, or after one
+    // reflection within. Random directions towards the sphere; `depth`: scattering events left.
+    dvec3 from_caustics(const Vertex& v, std::uint32_t depth, Random& random) const {
+        dvec3 sum{0};
+        if (smooth(v.primitive) || scene_.point_lights.empty()) return sum;
+        for (std::size_t i = 0; i < scene_.primitives.size(); ++i) {
+            const Primitive& ball = scene_.primitives[i];
+            const double sine = ball.radius / glm::length(ball.centre - v.point);
+            if (!smooth(ball) || sine >= 1) continue;
+            const double least_cosine = std::sqrt(1 - sine * sine);
+            const double solid_angle = 2 * std::numbers::pi * (1 - least_cosine);
+            for (std::uint32_t n = 0; n < options_.caustic_directions; ++n) {
+                const dvec3 direction = random.in_cone(ball.centre - v.point, least_cosine);
+                const dvec3 returned = response(v, direction);
+                if (returned == dvec3{0}) continue;
+                dvec3 arriving{0};
+                for (std::uint32_t chords = 0; chords < std::min(depth, 3u); ++chords) {
+                    arriving += over_ball(i, chords, {v.point, direction, v.sphere});
+                }
+                sum += returned * arriving * solid_angle;
+            }
+        }
+        return sum / static_cast<double>(options_.caustic_directions);
+    }
+
+    // Radiance of the point lights, as small spheres, where `ray` ends after `chords` chords within the ball.
+    dvec3 over_ball(std::size_t ball, std::uint32_t chords, Ray ray) const {
+        const Primitive& sphere = scene_.primitives[ball];
+        dvec3 weight{1};
+        for (std::uint32_t event = 0; event <= chords; ++event) {
+            const Hit hit = closest_hit(scene_.primitives, ray);
+            if (hit.sphere != ball) return dvec3{0};
+            const Vertex v(scene_, ray, hit);
+            const bool through = chords > 0 && (event == 0 || event == chords);
+            const Lobe lobe = lobes_of(v.material, v.incoming, v.normal, v.inside)[through ? 1 : 0];
+            weight *= lobe.weight;
+            if (weight == dvec3{0}) return weight;
+            ray = {v.point, lobe.axis, ball};
+        }
+        const double free = closest_hit(scene_.primitives, ray).distance;
+        dvec3 sum{0};
+        for (const PointLight& light : scene_.point_lights) {
+            const double gap = glm::length(light.position - sphere.centre) - sphere.radius;
+            const double radius = options_.lamp_radius * gap;
+            const dvec3 apart = light.position - ray.origin;
+            const double along = glm::dot(apart, ray.direction);
+            if (gap <= 0 || along <= 0 || along >= free) continue;
+            // Over the disc these weights have mean 1 and no second moment, which leaves an error of fourth order.
+            const dvec3 aside = (apart - along * ray.direction) / radius;
+            const double square = glm::dot(aside, aside);
+            if (square < 1) sum += light.intensity * ((4 - 6 * square) / (std::numbers::pi * radius * radius));
+        }
+        return weight * sum;
     }
 
     const Scene& scene_;

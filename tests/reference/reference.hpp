@@ -19,6 +19,13 @@ struct Options {
     /// PT: at diffuse vertices find area lights by a uniform point of their surface (equation (1) of the assignment)
     /// instead of by running into them. Same expectation, small lights converge; near a light the variance grows.
     bool next_event = false;
+    /// PT: diffuse, glossy and translucent vertices receive the light of point lights over one smooth sphere.
+    bool caustics = true;
+    /// Such light is found by chance: so many directions per smooth sphere at every vertex, towards point lights that
+    /// shine as spheres of this radius, in units of their distance from that smooth sphere. The mean is off by its
+    /// fourth power (and where a sphere is nearer to the light than that), the variance grows with the inverse square.
+    std::uint32_t caustic_directions = 1;
+    double lamp_radius = 0.1;
     /// DEPTH: false leaves the mean distance I itself. 1 - I/(1+I) of a noisy mean is biased where distances within a
     /// pixel differ much; I never is.
     bool post_process = true;

@@ -100,6 +100,7 @@ void expect_agreement_of(const std::vector<Variant>& variants, const Scene& scen
     const auto truth = reference::render(scene, {.samples = budget.reference_samples,
                                                  .block_size = budget.block_size,
                                                  .next_event = budget.next_event,
+                                                 .caustics = false,  // the kernels know none of point lights yet
                                                  .post_process = false});
     const auto judge = [](const statistics::BlockImage& candidate, const statistics::BlockImage& expected,
                           const std::string& what) {
