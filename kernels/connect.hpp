@@ -6,8 +6,7 @@
 #pragma once
 
 #include "kernels/lanes/compress.hpp"
-#include "kernels/light.hpp"
-#include "kernels/lobes.hpp"
+#include "kernels/lobe_cap.hpp"
 #include "kernels/stages.hpp"
 #include "kernels/vertex.hpp"
 
@@ -23,22 +22,35 @@ struct LitVertex {
     Mask<V> inward;    ///< it scatters into the sphere
 };
 
+template <class F>
+struct Lobe {
+    Vec3<F> direction;  ///< unit length
+    F dot_n, beta;      ///< cosine with the normal, >= 0, and roughness
+};
+template <class V>
+ORRERY_INLINE Lobe<Floats<V>> lobe_of(const ConnectContext<RealOf<V>>& context, const Lobes<V>& lobes,
+                                      const LitVertex<V>& vertex) {
+    using F = Floats<V>;
+    using U = Words<V>;
+    const U material =
+        lookup<U>(context.spheres.surface, vertex.sphere, context.spheres.count) & U(surface_material_mask);
+    const F beta = lookup<F>(context.materials.roughness, material, context.materials.count);
+    const std::uint32_t i = vertex.i;
+    const auto lobe = load3<V>(lobes.x + i, lobes.y + i, lobes.z + i);
+    return {lobe, max(dot(lobe, vertex.normal), F(0)), beta};
+}
+
 /// Scattering density per solid angle towards `direction`; the cosine is part of it. 0 below the horizon.
 template <class V, Response response>
 ORRERY_INLINE Floats<V> response_pdf(const ConnectContext<RealOf<V>>& context, const Lobes<V>& lobes,
                                      const LitVertex<V>& vertex, const Vec3Of<V>& direction) {
     using F = Floats<V>;
-    using U = Words<V>;
     const F cosine = dot(vertex.normal, direction);
     if constexpr (response == Response::diffuse) {
         return max(cosine, F(0)) * F(static_cast<RealOf<V>>(std::numbers::inv_pi));
     } else {
-        const U material =
-            lookup<U>(context.spheres.surface, vertex.sphere, context.spheres.count) & U(surface_material_mask);
-        const F beta = lookup<F>(context.materials.roughness, material, context.materials.count);
-        const std::uint32_t i = vertex.i;
-        const auto lobe = load3<V>(lobes.x + i, lobes.y + i, lobes.z + i);
-        return glossy_pdf<V>(lobe, max(dot(lobe, vertex.normal), F(0)), beta, direction, cosine);
+        const auto [lobe, lobe_dot_n, beta] = lobe_of<V>(context, lobes, vertex);
+        return glossy_pdf<V>(lobe, lobe_dot_n, beta, direction, cosine);
     }
 }
 
@@ -74,19 +86,25 @@ ORRERY_INLINE Words<V> choose_light(const Lights<V>& lights, const Floats<V>& z,
     return choose(own, cell, lookup<U>(lights.other, cell, lights.cells));
 }
 
+/// Lanes whose vertex lies within the sphere `id`, or on its inner side. On the light itself the side is known;
+/// elsewhere the power of the point tells, as it tells `first_root` where a ray meets the light: from a point on its
+/// surface (0) only from within.
+template <class V>
+ORRERY_INLINE Mask<V> is_inside(const LitVertex<V>& vertex, const Sphere<Floats<V>>& sphere, const Words<V>& id) {
+    const auto own = words_equal(vertex.sphere, id);
+    const auto within = power_of_point(vertex.position - sphere.centre, sphere.radius2) <= Floats<V>(0);
+    return (own && vertex.inward) || (!own && within);
+}
+
 /// A point of the sphere `id`, sampled from the vertex: from outside or from within, or from its own inner side. From
 /// its own outer side nothing of it is seen. (By reference: what is returned g++ 12 moves through memory, a sixth of
 /// all instructions of `connect` towards an area light on AVX2.)
 template <class V, LightStrategy strategy>
 ORRERY_INLINE void sample_sphere(const LitVertex<V>& vertex, const Sphere<Floats<V>>& sphere, const Words<V>& id,
                                  const RandomNumbers<Floats<V>>& random, LightSample<V>& sample) {
-    using F = Floats<V>;
-    // On the light itself its side is known; elsewhere the power of the point tells, as it tells `first_root` where a
-    // ray meets the light: from a point on its surface (0) only from within.
     const auto own = words_equal(vertex.sphere, id);
-    const auto within = power_of_point(vertex.position - sphere.centre, sphere.radius2) <= F(0);
-    const auto inside = (own && vertex.inward) || (!own && within);
-    if constexpr (strategy == LightStrategy::cone) {
+    const auto inside = is_inside<V>(vertex, sphere, id);
+    if constexpr (strategy != LightStrategy::area) {
         sample = sample_light_cone<V>(vertex.position, sphere, random.x, random.y);
         if (any(inside)) {
             const auto by_area = sample_light_area<V>(vertex.position, sphere, inside, random.x, random.y);
@@ -130,6 +148,28 @@ ORRERY_INLINE auto entry(const Element* column, std::uint32_t light, const Words
     if constexpr (aim != Aim::chosen) return T(column[light]);
 }
 
+/// As sample_sphere from a rough vertex whose own directions are sampled, and the ratio of densities that
+/// `sample_light` wants. `inside`: the vertex lies within the light, where a point of it is sampled.
+template <class V>
+ORRERY_INLINE void sample_by_lobe(const ConnectContext<RealOf<V>>& context, const Lobes<V>& lobes,
+                                  const LitVertex<V>& vertex, const Sphere<Floats<V>>& sphere, const Words<V>& id,
+                                  const RandomNumbers<Floats<V>>& random, LightSample<V>& sample, Floats<V>& ratio,
+                                  Mask<V>& inside) {
+    const auto [lobe, dot_n, beta] = lobe_of<V>(context, lobes, vertex);
+    const auto on =
+        sample_lobe_in_cap<V>(vertex.position, sphere, lobe, vertex.normal, dot_n, beta, random.x, random.y);
+    sample = on.sample;
+    sample.valid = sample.valid && !words_equal(vertex.sphere, id);
+    ratio = on.factor;
+    inside = is_inside<V>(vertex, sphere, id);
+    if (any(inside)) {
+        const auto by_area = sample_light_area<V>(vertex.position, sphere, inside, random.x, random.y);
+        replace(sample, inside, by_area);
+        const auto pdf = glossy_pdf<V>(lobe, dot_n, beta, by_area.direction, dot(by_area.direction, vertex.normal));
+        ratio = choose(inside, pdf * by_area.inverse_pdf, ratio);
+    }
+}
+
 /// Samples the light from a vector of vertices. The factor is the density of scattering over that of light sampling,
 /// weighed against scattering by the balance heuristic where the two compete; for a point the inverse square takes the
 /// place of the latter. (A function of its own: in the loop g++ 12 would keep a twelfth more of it in memory on AVX2.)
@@ -149,26 +189,42 @@ ORRERY_INLINE Arrival<V> sample_light(const ConnectContext<RealOf<V>>& context, 
     const F radius = of(lights.radius);
     const Sphere<F> source{{of(lights.px), of(lights.py), of(lights.pz)}, radius, radius * radius};
     const auto is_sphere = radius > F(0);
+    constexpr bool by_lobe = response == Response::glossy && strategy == LightStrategy::exact && aim != Aim::point;
     LightSample<V> sample;
-    if constexpr (aim == Aim::sphere) {
-        sample_sphere<V, strategy>(vertex, source, of(lights.sphere), random, sample);
-    } else {
+    F ratio(0);
+    auto competing = is_sphere;  // where scattering may find the light as well
+    if constexpr (aim != Aim::sphere) {
         sample = sample_point<V>(vertex.position, source.centre);
+    } else if constexpr (!by_lobe) {
+        sample_sphere<V, strategy>(vertex, source, of(lights.sphere), random, sample);
     }
-    if constexpr (aim == Aim::chosen) {
+    if constexpr (aim == Aim::chosen && !by_lobe) {
         if (any(is_sphere)) {
             LightSample<V> on;
             sample_sphere<V, strategy>(vertex, source, of(lights.sphere), random, on);
             replace(sample, is_sphere, on);
         }
     }
-    const F pdf = response_pdf<V, response>(context, lobes, vertex, sample.direction);
-    F ratio = pdf * sample.inverse_pdf;
-    if constexpr (aim == Aim::point) ratio = pdf * sample.inverse_distance * sample.inverse_distance;
+    if constexpr (aim != Aim::sphere || !by_lobe) {
+        const F pdf = response_pdf<V, response>(context, lobes, vertex, sample.direction);
+        ratio = pdf * sample.inverse_pdf;
+        if constexpr (aim == Aim::point) ratio = pdf * sample.inverse_distance * sample.inverse_distance;
+    }
+    if constexpr (by_lobe) {
+        LightSample<V> on;
+        F factor(0);
+        sample_by_lobe<V>(context, lobes, vertex, source, of(lights.sphere), random, on, factor, competing);
+        competing = competing && is_sphere;
+        if constexpr (aim == Aim::sphere) sample = on, ratio = factor;
+        if constexpr (aim == Aim::chosen) replace(sample, is_sphere, on), ratio = choose(is_sphere, factor, ratio);
+    } else if constexpr (aim != Aim::point && strategy == LightStrategy::exact) {
+        competing = is_sphere && is_inside<V>(vertex, source, of(lights.sphere));
+    }
     if constexpr (aim == Aim::chosen) ratio = ratio * of(lights.inverse_probability);
     if (aim != Aim::point && context.competing) {
         const F shared = shared_ratio(ratio);
-        ratio = aim == Aim::sphere ? shared : choose(is_sphere, shared, ratio);
+        const bool all_compete = aim == Aim::sphere && strategy != LightStrategy::exact;
+        ratio = all_compete ? shared : choose(competing, shared, ratio);
     }
     return {sample.direction, sample.inverse_distance, ratio, sample.valid && !(ratio <= F(0)), chosen};
 }
@@ -227,6 +283,7 @@ std::uint32_t connect(const ConnectContext<RealOf<V>>& context, std::uint32_t li
     if (light < context.lights.points)
         return connect_run<V, response, Aim::point, area>(context, light, run, rays, lobes, queue);
     if (context.strategy == cone) return connect_by<V, response, cone>(context, light, run, rays, lobes, queue);
+    if (context.strategy == exact) return connect_by<V, response, exact>(context, light, run, rays, lobes, queue);
     return connect_by<V, response, area>(context, light, run, rays, lobes, queue);
 }
 

@@ -45,7 +45,7 @@ void emission(const Spheres<V>& spheres, const Lights<V>& lights, const Backgrou
         F weight(1);
         if (rays.pdf != nullptr) {
             const auto inside = !words_equal(hit, id);
-            F density = light_pdf<V>(strategy == LightStrategy::cone, load3<V>(rays.ox + i, rays.oy + i, rays.oz + i),
+            F density = light_pdf<V>(strategy, load3<V>(rays.ox + i, rays.oy + i, rays.oz + i),
                                      load3<V>(rays.dx + i, rays.dy + i, rays.dz + i), load<F>(hits.t + i),
                                      gather_sphere<V>(spheres, id), inside);
             if (lights.probability != nullptr) density = density * lookup<F>(lights.probability, light, lights.count);

@@ -5,6 +5,7 @@
 
 #include "kernels/connect.hpp"
 #include "kernels/emission.hpp"
+#include "kernels/exact.hpp"
 #include "kernels/generate.hpp"
 #include "kernels/roulette.hpp"
 #include "kernels/segment.hpp"
@@ -35,6 +36,7 @@ constexpr Stages<RealOf<V>> make_stages(Isa isa) {
     (std::make_integer_sequence<std::uint32_t, scattering_count>{});
     s.connect[0] = connect<W, Response::diffuse>;
     s.connect[1] = connect<W, Response::glossy>;
+    s.exact = exact<S>;
     s.shadow = shadow<S>;
     s.shadow_coherent = shadow_coherent<S>;
     s.shadow_tree = shadow_tree<V>;

@@ -1,6 +1,8 @@
 // Sampling a light from a vertex, and the density of that sampling: a point, and a sphere by one pair per strategy.
 #pragma once
 
+#include <limits>
+
 #include "kernels/sampling.hpp"
 #include "kernels/sphere.hpp"
 
@@ -85,16 +87,17 @@ ORRERY_INLINE LightSample<V> sample_light_cone(const Vec3Of<V>& p, const Sphere<
 }
 
 /// Density with which a direction that meets the light after t is sampled from `origin`: what multiple importance
-/// sampling compares. `inside`: the origin lies within the light.
+/// sampling compares: infinite where light samples alone count. `inside`: the origin lies within the light.
 template <class V>
-ORRERY_INLINE Floats<V> light_pdf(bool cone_sampling, const Vec3Of<V>& origin, const Vec3Of<V>& direction,
+ORRERY_INLINE Floats<V> light_pdf(LightStrategy strategy, const Vec3Of<V>& origin, const Vec3Of<V>& direction,
                                   const Floats<V>& t, const Sphere<Floats<V>>& light, const Mask<V>& inside) {
     using F = Floats<V>;
     using Real = typename V::Real;
     const auto line = chord(origin, direction, light);
     const F cosine = root(max(line.disc, F(0)));  // times the radius
     const F area_pdf = t * t / (F(static_cast<Real>(4 * std::numbers::pi)) * light.radius * cosine);
-    if (!cone_sampling) return area_pdf;
+    if (strategy == LightStrategy::area) return area_pdf;
+    if (strategy == LightStrategy::exact) return choose(inside, area_pdf, F(std::numeric_limits<Real>::infinity()));
     const auto cone = light_cone(origin - light.centre, line.c, light.radius);
     const F cone_pdf = F(1) / (F(static_cast<Real>(2 * std::numbers::pi)) * cone.one_minus_cosine);
     return choose(inside, area_pdf, cone_pdf);

@@ -84,38 +84,61 @@ ORRERY_INLINE bool may_be_coherent(const RaySpan<Real>& rays) {
     return like_first(rays.count - 1) && like_first(rays.count / 2);
 }
 
-/// Bounds at least V::count rays.
-template <class V>
-ORRERY_INLINE Packet<RealOf<V>> bound(const RaySpan<RealOf<V>>& rays) {
-    const auto& [column, inverse_t_max, count] = rays;
+/// Whose columns' ranges are `middle` give or take `half`.
+template <class Real, int columns>
+struct Box {
+    Real middle[columns], half[columns];
+
+    /// Half a diagonal of columns c to c + 2.
+    ORRERY_INLINE Real radius(int c) const {
+        return root(half[c] * half[c] + half[c + 1] * half[c + 1] + half[c + 2] * half[c + 2]);
+    }
+};
+
+/// Bounds columns of at least V::count numbers each.
+template <class V, int columns>
+ORRERY_INLINE Box<RealOf<V>, columns> box_of(const RealOf<V>* const (&column)[columns], std::uint32_t count) {
     using Real = typename V::Real;
     using F = Floats<V>;
-    F low[6], high[6];
+    F low[columns], high[columns];
     const F infinity(std::numeric_limits<Real>::infinity());
-    for (int c = 0; c < 6; ++c) low[c] = infinity, high[c] = F(0) - infinity;
-    F nearest = inverse_t_max != nullptr ? infinity : F(0);
+    for (int c = 0; c < columns; ++c) low[c] = infinity, high[c] = F(0) - infinity;
     for (std::uint32_t i = 0; i < count; i += V::count) {
-        // The last vector overlaps the one before rather than reach behind the last ray.
+        // The last vector overlaps the one before rather than reach behind the last number.
         const std::uint32_t at = i + V::count <= count ? i : count - V::count;
-        for (int c = 0; c < 6; ++c) {
+        for (int c = 0; c < columns; ++c) {
             const F x = load<F>(column[c] + at);
             low[c] = min(x, low[c]);  // in this order: what is no number, and meets nothing, moves no bound
             high[c] = max(x, high[c]);
         }
-        if (inverse_t_max != nullptr) nearest = min(load<F>(inverse_t_max + at), nearest);
     }
-    Real middle[6], half[6];
-    for (int c = 0; c < 6; ++c) {
+    Box<Real, columns> box;
+    for (int c = 0; c < columns; ++c) {
         const Real from = least(low[c]), to = -least(F(0) - high[c]);
-        middle[c] = Real(0.5) * (from + to);
+        box.middle[c] = Real(0.5) * (from + to);
         // The middle is rounded: far from the world's origin by more than rays that start close together are apart.
-        half[c] = mul_add(magnitude(middle[c]), Real(0x1p-22), Real(0.5) * (to - from));
+        box.half[c] = mul_add(magnitude(box.middle[c]), Real(0x1p-22), Real(0.5) * (to - from));
     }
-    const auto length = [](Real x, Real y, Real z) ORRERY_INLINE_LAMBDA { return root(x * x + y * y + z * z); };
-    return {{middle[0], middle[1], middle[2]},
-            {middle[3], middle[4], middle[5]},
-            length(half[0], half[1], half[2]),
-            length(half[3], half[4], half[5]),
+    return box;
+}
+
+/// Bounds at least V::count rays.
+template <class V>
+ORRERY_INLINE Packet<RealOf<V>> bound(const RaySpan<RealOf<V>>& rays) {
+    using Real = typename V::Real;
+    using F = Floats<V>;
+    const auto box = box_of<V>(rays.column, rays.count);
+    F nearest(rays.inverse_t_max != nullptr ? std::numeric_limits<Real>::infinity() : Real(0));
+    if (rays.inverse_t_max != nullptr) {
+        for (std::uint32_t i = 0; i < rays.count; i += V::count) {
+            const std::uint32_t at = i + V::count <= rays.count ? i : rays.count - V::count;
+            nearest = min(load<F>(rays.inverse_t_max + at), nearest);
+        }
+    }
+    return {{box.middle[0], box.middle[1], box.middle[2]},
+            {box.middle[3], box.middle[4], box.middle[5]},
+            box.radius(0),
+            box.radius(3),
             Real(1) / least(nearest)};
 }
 

@@ -72,6 +72,10 @@ struct Stages {
                                       const LobeQueue<Real>&, const ShadowQueue<Real>&);
     Connect connect[2];  ///< by Response
 
+    /// To an area light; returns the number of rays put aside for connect.
+    std::uint32_t (*exact)(const ConnectContext<Real>&, std::uint32_t light, Range, const RayQueue<Real>&,
+                           const RayQueue<Real>& aside);
+
     using Shadow = void (*)(const SphereTable<Real>&, const ShadowQueue<Real>&, std::uint32_t count,
                             std::uint32_t target, const SlotTable<Real>&);
     Shadow shadow, shadow_coherent, shadow_tree;

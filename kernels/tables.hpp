@@ -144,10 +144,12 @@ struct Background {
     ORRERY_INLINE bool shines() const { return r != 0 || g != 0 || b != 0; }
 };
 
-/// How a direction towards an area light is drawn.
+/// How a direction towards an area light is drawn, or what is done in place of that.
 enum class LightStrategy : std::uint32_t {
     area,  ///< uniform over the surface
     cone,  ///< uniform over the subtended solid angle; from inside the light, area
+    exact  ///< from outside light samples alone count: at diffuse vertices the closed form, or else by the cone, at
+           ///< rough ones the lobe's own directions within the cone; from inside the light, area
 };
 
 /// Camera frame. A ray through (x, y) of the image plane at distance 1 has the direction unit(x X + y Y + Z).

@@ -82,12 +82,12 @@ ORRERY_INLINE std::enable_if_t<std::is_arithmetic_v<T>> compress_store(T* to, T 
     if (chosen != 0) *to = value;
 }
 
-/// Moves the chosen lanes of every field of `from`, lanes i.., to the entries of `to` from `at` on.
+/// Moves the chosen lanes of every field that both have, of `from` lanes i.., to the entries of `to` from `at` on.
 template <class V, class Queue>
 ORRERY_INLINE void move_record(const Queue& from, std::uint32_t i, const Queue& to, std::uint32_t at,
                                std::uint32_t chosen) {
     Queue::each_field([&](const char*, auto field) {
-        if (from.*field == nullptr) return;
+        if (from.*field == nullptr || to.*field == nullptr) return;
         using Element = std::remove_pointer_t<std::remove_cvref_t<decltype(from.*field)>>;
         using T = std::conditional_t<std::is_floating_point_v<Element>, typename V::F, typename V::U>;
         compress_store<V>(to.*field + at, load<T>(from.*field + i), chosen);

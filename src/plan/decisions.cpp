@@ -3,6 +3,7 @@
 
 #include "plan/plan.hpp"
 #include "scene/counted.hpp"
+#include "scene/settings.hpp"
 
 namespace orrery {
 
@@ -62,13 +63,23 @@ std::vector<Decision> Plan::decisions() const {
            n.connect_point != 0 ? fmt::format("{} of them, from {} surfaces", point_lights_, kinds(n.connect_point))
            : point_lights_ == 0 ? "there is none"
                                 : "no surface they could light");
+    const bool exact = s.light_sampling == LightSampling::exact;
     const bool naive = n.integrator == Integrator::path_tracing && s.transport == Transport::naive;
     decide("shadow: area lights", n.connect_area != 0,
            n.connect_area != 0 ? fmt::format("{} of them, from {} surfaces{}", emitters_, kinds(n.connect_area),
-                                             n.competing ? ", weighed against scattering" : "")
+                                             !n.competing ? ""
+                                             : exact      ? ", in place of scattering from outside them"
+                                                          : ", weighed against scattering")
            : emitters_ == 0    ? "there is none"
            : naive             ? "naive transport finds them by scattering"
                                : "no surface samples them");
+    decide("shadow: closed form", n.exact,
+           n.exact  ? "diffuse surfaces get their light without rays, but where several spheres take parts of it"
+           : !exact ? fmt::format("light sampling is by {}", text_of(setting("light-sampling"), s))
+           : n.connect_area == 0 ? "no area light is sampled"
+           : n.tree      ? fmt::format("{}: they are sooner met by rays", counted(scene_.primitives.size(), "sphere"))
+           : n.one_light ? "every vertex chooses its light"
+                         : "no diffuse surface samples area lights");
     const auto lights = sampled_lights();
     decide("shadow: light choice", n.one_light,
            lights == 0                            ? "no light is sampled"

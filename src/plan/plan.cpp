@@ -27,6 +27,7 @@ Plan::Plan(Scene scene, unsigned threads) : scene_(std::move(scene)) {
     plan_camera();
     plan_needs();
     plan_tables(threads);
+    plan_exact();
 }
 
 std::uint32_t Plan::samples() const {
@@ -126,6 +127,45 @@ void Plan::plan_needs() {
     needs_.roulette = s.roulette && s.depth > s.roulette_from;
     needs_.eta_scale = needs_.roulette && dielectric != 0;
     needs_.lobes = ((needs_.connect_point | needs_.connect_area) & ~diffuse) != 0;
+}
+
+namespace {
+
+/// Whether a ray may be scattered within an area light: because its surface or the camera's lens lets rays in, or
+/// another surface does. Errs on the side of yes.
+bool scatters_within_lights(const Scene& scene) {
+    // What two spheres are apart by no more than rounding may be apart by less.
+    constexpr double rounding = 1e-5;
+    const Camera& camera = scene.camera;
+    for (const Primitive& light : scene.primitives) {
+        if (!emits(light)) continue;
+        const auto kind = scattering_of(scene.materials[light.material], scene.settings.integrator);
+        const double reach = (light.radius + camera.aperture) * (1 + rounding);
+        if (kernels::traits_of(kind).is_interface || glm::length(camera.position - light.centre) <= reach) return true;
+        for (const Primitive& other : scene.primitives) {
+            if (&other == &light) continue;
+            const double distance = glm::length(other.centre - light.centre);
+            const double slack = rounding * (distance + other.radius + light.radius + glm::length(light.centre));
+            const bool outside = distance - slack > other.radius + light.radius;
+            const bool around = distance + light.radius + slack < other.radius;
+            if (!outside && !around) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+void Plan::plan_exact() {
+    const bool chosen = settings().light_sampling == LightSampling::exact;
+    const auto diffuse =
+        kernels::scattering_where([](const ScatteringTraits& t) { return t.response == Response::diffuse; });
+    needs_.exact = chosen && (needs_.connect_area & diffuse) != 0 && !needs_.tree && !needs_.one_light;
+    // Where spheres times lights are beyond any number, it is not worth the time to know.
+    const auto apart = [&] {
+        return emitters_ * scene_.primitives.size() < (1u << 22) && !scatters_within_lights(scene_);
+    };
+    needs_.lights_only = needs_.scattering_pdf && !needs_.background && (!needs_.competing || (chosen && apart()));
 }
 
 }  // namespace orrery

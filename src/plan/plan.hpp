@@ -28,7 +28,9 @@ struct Needs {
     std::uint32_t connect_point = 0;  ///< kinds whose vertices sample point lights
     std::uint32_t connect_area = 0;   ///< kinds whose vertices sample area lights
     bool one_light = false;           ///< a vertex samples one light of several
+    bool exact = false;               ///< diffuse vertices take area lights in closed form where there is one
     bool competing = false;           ///< light samples and scattering share the work (mis)
+    bool lights_only = false;         ///< what rays from vertices that sample area lights run into counts for nothing
     bool scattering_pdf = false;      ///< rays carry the density that made them
     bool eta_scale = false;           ///< rays carry the radiance scaling roulette must not see
     bool lobes = false;               ///< glossy vertices keep their lobe for the light samples
@@ -89,6 +91,7 @@ private:
     void plan_camera();
     void plan_tables(unsigned threads);
     void plan_needs();
+    void plan_exact();
     /// How many lights vertices aim at.
     std::size_t sampled_lights() const;
 

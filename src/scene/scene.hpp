@@ -56,7 +56,7 @@ struct PointLight {
 enum class Integrator : std::uint8_t { path_tracing, whitted, depth };
 enum class Estimator : std::uint8_t { uniform, stratified, sobol };
 enum class Transport : std::uint8_t { naive, nee, mis };
-enum class LightSampling : std::uint8_t { area, cone };
+enum class LightSampling : std::uint8_t { area, cone, exact };
 /// Which lights a vertex of a path samples: all of them, or one, all alike or in proportion to their powers.
 enum class LightChoice : std::uint8_t { all, uniform, power };
 /// The kernels' number type (IEEE 754); automatic: float where it is good enough for the scene.

@@ -65,8 +65,9 @@ std::vector<Setting> table() {
          .meaning = "Greatest number of scattering events on a path from eye to light; at most 20 for Whitted",
          .member = member<&S::depth>, .matters = with_light},
         {.key = "light sampling", .option = "light-sampling", .group = "Method", .kind = word,
-         .words = {"area", "cone"}, .same_expectation = true,
-         .meaning = "Points on a spherical light: uniform over its surface, or over the cone it subtends",
+         .words = {"area", "cone", "exact"}, .same_expectation = true,
+         .meaning = "Points on a spherical light: uniform over its surface, or over the cone it subtends; or, with "
+                    "exact, no samples where its light is known in closed form",
          .member = member<&S::light_sampling>, .matters = with_light},
         {.key = "transport", .option = "transport", .group = "Method", .kind = word, .words = {"naive", "nee", "mis"},
          .same_expectation = true,

@@ -8,8 +8,11 @@ using kernels::Scattering;
 
 namespace {
 
-/// Rays that leave a diffuse surface end here: nothing they could run into counts.
-void end_diffuse(Runs& runs) { runs.run[static_cast<std::size_t>(Scattering::diffuse)].count = 0; }
+/// Rays that leave surfaces of these kinds end here: nothing they could run into counts.
+void end(Runs& runs, std::uint32_t kinds) {
+    for (std::uint32_t k = 0; k < kernels::scattering_count; ++k)
+        if ((kinds >> k & 1u) != 0) runs.run[k].count = 0;
+}
 
 }  // namespace
 
@@ -19,7 +22,6 @@ template <class Real>
 void trace_paths(Wave<Real>& w) {
     const Needs& needs = w.plan.needs();
     const std::uint32_t depth = w.plan.settings().depth;
-    const bool only_lights_sampled = needs.scattering_pdf && !needs.competing && !needs.background;
 
     std::uint32_t rays = w.generate();
     for (std::uint32_t bounce = 0; rays > 0; ++bounce) {
@@ -32,7 +34,7 @@ void trace_paths(Wave<Real>& w) {
         w.direct_lighting(runs, bounce);
         if (bounce + 1 == depth) {
             if (!w.pipeline.emission) break;
-            if (only_lights_sampled) end_diffuse(runs);
+            if (needs.lights_only) end(runs, needs.connect_area);
         }
         rays = w.roulette(runs, bounce);
     }
@@ -50,7 +52,7 @@ void trace_whitted(Wave<Real>& w) {
         Runs runs = w.sort(rays, pass);
         w.scatter(Scattering::diffuse, runs, pass);
         w.direct_lighting(runs, pass);
-        end_diffuse(runs);
+        end(runs, kernels::bit_of(Scattering::diffuse));
         w.scatter(Scattering::specular, runs, pass);
         w.branch(runs, pass);
         rays = w.resume(w.roulette(runs, pass), pass);

@@ -35,8 +35,7 @@ Pipeline<Real>::Pipeline(const Plan& plan, const Table& stages) {
     generate = needs.lens ? &Table::generate_lens : &Table::generate_pinhole;
     intersect = needs.tree ? &Table::intersect_tree : needs.packets ? &Table::intersect_coherent : &Table::intersect;
     shadow = needs.tree ? &Table::shadow_tree : needs.packets ? &Table::shadow_coherent : &Table::shadow;
-    strategy =
-        settings.light_sampling == LightSampling::cone ? kernels::LightStrategy::cone : kernels::LightStrategy::area;
+    strategy = static_cast<kernels::LightStrategy>(settings.light_sampling);  // the same words in the same order
     emission = needs.emitters || needs.background;
     sphere_step = needs.tree ? 0 : stages.sphere_step;
     for (std::uint32_t k = 0; k < kernels::scattering_count; ++k) {

@@ -32,6 +32,7 @@ enum Parts : std::uint32_t {
     lobe_part = 16,
     shadow_part = 32,
     sorted_part = 64,  ///< sorted rays and hits
+    aside_part = 128,  ///< rays that light samples are drawn for
 };
 
 /// A stage, as those see it who count and record what it does.

@@ -17,6 +17,9 @@ constexpr StageInfo emission_info{"emission", Stage::shade, radiance_part | ray_
 constexpr StageInfo sort_info{"sort", Stage::shade, ray_part | hit_part, sorted_part, true};
 constexpr StageInfo scatter_info{"scatter", Stage::shade, slot_part | ray_part | hit_part, ray_part};
 constexpr StageInfo rough_info{"scatter", Stage::shade, slot_part | ray_part | hit_part, ray_part | lobe_part};
+// What it puts aside is not compared: the slots are.
+constexpr StageInfo exact_info{"exact", Stage::shade, slot_part | radiance_part | ray_part, radiance_part, true};
+constexpr StageInfo aside_info{"connect", Stage::shade, slot_part | aside_part, shadow_part, true};
 constexpr StageInfo connect_info{"connect", Stage::shade, slot_part | ray_part | lobe_part, shadow_part, true};
 constexpr StageInfo shadow_info{"shadow", Stage::shadow, radiance_part | shadow_part, radiance_part};
 constexpr StageInfo roulette_info{"roulette", Stage::roulette, slot_part | ray_part, ray_part};
@@ -157,23 +160,36 @@ void Wave<Real>::direct_lighting(const Runs& runs, std::uint32_t bounce) {
 
 /// The vertices of a run towards one light, or each towards the one it chooses; and what of that arrives.
 template <class Real>
-void Wave<Real>::light(Scattering kind, const kernels::LightTable<Real>& lights, const Range& vertices,
-                       std::uint32_t which, std::uint32_t bounce) {
+void Wave<Real>::light(Scattering kind, const kernels::LightTable<Real>& lights, Range vertices, std::uint32_t which,
+                       std::uint32_t bounce) {
     const kernels::Response response = kernels::traits_of(kind).response;
     const bool chosen = which == kernels::chosen_light;
     const std::uint32_t bytes = words<Real>(3 + 3 + 4) + record_bytes(storage.shadows) +
                                 (response == kernels::Response::glossy ? record_bytes(storage.lobes) : 0);
     proceed(vertices.count);
+    const auto context_on = [&t = tables, &lights, bounce, seed = plan.settings().seed, strategy = pipeline.strategy,
+                             competing = plan.needs().competing](const WaveStorage<Real>& q) {
+        return kernels::ConnectContext<Real>{t.spheres, t.materials, lights,   q.slots,
+                                             seed,      bounce,      strategy, competing};
+    };
+    const bool exact =
+        plan.needs().exact && response == kernels::Response::diffuse && !chosen && which >= lights.points;
+    if (exact) {
+        vertices = call({exact_info, bounce, vertices, words<Real>(3 + 3 + 2) + words<Real>(4), stages.sphere_step},
+                        [context_on, vertices, which](const auto& s, auto& q) {
+                            return only({0, s.exact(context_on(q), which, vertices, q.rays, q.aside)});
+                        })
+                       .run[0];
+        if (vertices.count == 0) return;
+    }
     const Runs aimed =
-        call({connect_info, bounce, vertices, bytes, stages.step,
+        call({exact ? aside_info : connect_info, bounce, vertices, bytes, stages.step,
               chosen                  ? "chosen"
               : which < lights.points ? "point"
                                       : "area"},
-             [&t = tables, &lights, response, vertices, which, bounce, seed = plan.settings().seed,
-              strategy = pipeline.strategy, competing = plan.needs().competing](const auto& s, auto& q) {
+             [context_on, response, vertices, which, exact](const auto& s, auto& q) {
                  const auto stage = s.connect[static_cast<std::size_t>(response)];
-                 return only({0, stage({t.spheres, t.materials, lights, q.slots, seed, bounce, strategy, competing},
-                                       which, vertices, q.rays, q.lobes, q.shadows)});
+                 return only({0, stage(context_on(q), which, vertices, exact ? q.aside : q.rays, q.lobes, q.shadows)});
              });
     const std::uint32_t rays = aimed.run[0].count;
     if (rays == 0) return;

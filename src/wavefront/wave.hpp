@@ -83,7 +83,7 @@ private:
     template <class Make>
     kernels::Runs call(const StageCall& what, const Make& make);
     /// `lights`: a member of the plan's tables, which recorded calls refer to.
-    void light(kernels::Scattering kind, const kernels::LightTable<Real>& lights, const kernels::Range& vertices,
+    void light(kernels::Scattering kind, const kernels::LightTable<Real>& lights, kernels::Range vertices,
                std::uint32_t which, std::uint32_t bounce);
 };
 

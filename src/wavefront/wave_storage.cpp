@@ -40,9 +40,11 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
     const std::uint32_t capacity = kernels::ray_capacity(slot_count);
     const bool shades = needs.integrator != Integrator::depth;
 
-    const auto ray_fields = [&](kernels::RayQueue<Real>& queue, std::size_t count) {
+    const auto every = [](auto) { return true; };
+    const auto ray_fields = [&](kernels::RayQueue<Real>& queue, std::size_t count, const auto& wanted) {
         kernels::RayQueue<Real>::each_field([&](const char*, auto member) {
             using Queue = kernels::RayQueue<Real>;
+            if (!wanted(member)) return;
             if constexpr (std::is_same_v<decltype(member), Real * Queue::*>) {
                 if (member == &Queue::pdf && !needs.scattering_pdf) return;
                 if (member == &Queue::eta_scale && !needs.eta_scale) return;
@@ -66,10 +68,10 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
         if (four || (needs.scattering & drawing_three) != 0) carver.field(slots.sobol.z, capacity);
         if (four) carver.field(slots.sobol.w, capacity);
     }
-    ray_fields(rays, capacity);
+    ray_fields(rays, capacity, every);
     carver.queue(hits, capacity);
     if (needs.sort) {
-        ray_fields(sorted_rays, capacity);
+        ray_fields(sorted_rays, capacity, every);
         carver.queue(sorted_hits, capacity);
     }
     if (needs.lobes) carver.queue(lobes, capacity);
@@ -83,10 +85,20 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
             carver.field(shadows.*member, capacity);
         });
     }
+    if (needs.exact) {
+        using Queue = kernels::RayQueue<Real>;
+        ray_fields(aside, capacity, [](auto member) {
+            if constexpr (std::is_same_v<decltype(member), Real * Queue::*>) {
+                return member != &Queue::dx && member != &Queue::dy && member != &Queue::dz && member != &Queue::pdf &&
+                       member != &Queue::eta_scale;
+            }
+            return true;
+        });
+    }
     if (needs.branches) {
         branches.slots = slot_count;
         carver.field(branches.height, padded);
-        ray_fields(branches.rays, std::size_t{slot_count} * depth);
+        ray_fields(branches.rays, std::size_t{slot_count} * depth, every);
         branches.rays.pixel = branches.rays.sample = nullptr;  // the slot knows them
         carver.field(live, padded);
     }

@@ -28,6 +28,8 @@ public:
     kernels::HitQueue<Real> sorted_hits{};
     kernels::LobeQueue<Real> lobes{};
     kernels::ShadowQueue<Real> shadows{};
+    kernels::RayQueue<Real>
+        aside{};  ///< vertices whose light is not known in closed form; what `connect` reads of them
     kernels::BranchStack<Real> branches{};
     kernels::WordOf<Real>* live = nullptr;  ///< scratch of the stage `resume`, all zero
 

@@ -44,7 +44,7 @@ Scene wild(Dice& dice, double away) {
     if (dice.coin()) add_point_light(scene, at(size), dvec3{dice.scale(1e-30, 1e12)});
     scene.settings.integrator = dice.coin() ? Integrator::path_tracing : Integrator::whitted;
     scene.settings.transport = static_cast<Transport>(dice.integer(0, 2));
-    scene.settings.light_sampling = static_cast<LightSampling>(dice.integer(0, 1));
+    scene.settings.light_sampling = static_cast<LightSampling>(dice.integer(0, 2));
     scene.settings.roulette = dice.coin();
     return scene;
 }

@@ -41,7 +41,7 @@ private:
                                                   Integrator::path_tracing, Integrator::whitted, Integrator::depth});
         s.estimator = choices_.one_of(std::array{Estimator::uniform, Estimator::stratified, Estimator::sobol});
         s.transport = choices_.one_of(std::array{Transport::naive, Transport::nee, Transport::mis});
-        s.light_sampling = choices_.one_of(std::array{LightSampling::cone, LightSampling::area});
+        s.light_sampling = choices_.one_of(std::array{LightSampling::cone, LightSampling::area, LightSampling::exact});
         s.light_choice = choices_.one_of(std::array{LightChoice::all, LightChoice::uniform, LightChoice::power});
         s.precision = choices_.one_of(std::array{Precision::automatic, Precision::binary32, Precision::binary64});
         s.roulette = choices_.chance(128);

@@ -103,6 +103,29 @@ TEST_P(EmissionTest, EmittersAreWeighedAgainstLightSampling) {
     expect_agrees(world, wave_of(world, 2001), LightStrategy::area);
 }
 
+// From outside light samples alone count, whatever the density of scattering; from within the two compete, as by area.
+TEST_P(EmissionTest, ExactLightLeavesScatteringWhatIsWithinTheLight) {
+    const World lamp({{glm::dvec3(0), 1, 0, 0}}, {Surface{}}, {{1, 2, 3}});
+    const auto radiance = [&](LightStrategy strategy, bool within, double pdf) {
+        const Rays rays(16);
+        const Hits hits(16);
+        const Slots slots(16);
+        put_ray(*rays, 0, {within ? 0.5 : 3, 0, 0}, {-1, 0, 0});
+        rays->pdf[0] = narrow(pdf);
+        hits->id[0] = within ? inside_bit : 0;
+        hits->t[0] = within ? 1.5f : 2;
+        for (int c = 0; c < 3; ++c) slots->radiance[c] = 0;
+        stages.emission(lamp.spheres, lamp.lights, lamp.background, strategy, *rays, *hits, 1, *slots);
+        return slots->radiance[2];
+    };
+    for (const double pdf : {0.0, 0.25, 1e30}) {
+        EXPECT_EQ(radiance(LightStrategy::exact, false, pdf), 0);
+        EXPECT_EQ(radiance(LightStrategy::exact, true, pdf), radiance(LightStrategy::area, true, pdf));
+    }
+    EXPECT_GT(radiance(LightStrategy::exact, true, 0.25), 0.1);
+    EXPECT_EQ(radiance(LightStrategy::exact, false, infinity), 3) << "no vertex has sampled it";
+}
+
 // Where vertices sample one light of several, a light competes in proportion to how often it is chosen.
 TEST_P(EmissionTest, WhatIsChosenRarelyLeavesMoreToScattering) {
     World chosen({{glm::dvec3(0, 0, 0), 1, 0, 0},

@@ -36,11 +36,14 @@ void for_each_plan(const Visit& visit) {
         for (const Integrator integrator : {Integrator::path_tracing, Integrator::whitted, Integrator::depth}) {
             for (const Transport transport : {Transport::naive, Transport::nee, Transport::mis}) {
                 for (const bool roulette : {false, true}) {
-                    Scene scene = plain;
-                    scene.settings.integrator = integrator;
-                    scene.settings.transport = transport;
-                    scene.settings.roulette = roulette;
-                    visit(Plan(scene));
+                    for (const LightSampling sampling : {LightSampling::cone, LightSampling::exact}) {
+                        Scene scene = plain;
+                        scene.settings.integrator = integrator;
+                        scene.settings.transport = transport;
+                        scene.settings.roulette = roulette;
+                        scene.settings.light_sampling = sampling;
+                        visit(Plan(scene));
+                    }
                 }
             }
         }
@@ -76,6 +79,7 @@ TEST(Decisions, SayWhatTheNeedsSay) {
         EXPECT_EQ(decision(all, "shade: background").runs, needs.background);
         EXPECT_EQ(decision(all, "shadow: point lights").runs, needs.connect_point != 0);
         EXPECT_EQ(decision(all, "shadow: area lights").runs, needs.connect_area != 0);
+        EXPECT_EQ(decision(all, "shadow: closed form").runs, needs.exact);
         EXPECT_EQ(decision(all, "shadow: light choice").runs, needs.one_light);
         EXPECT_EQ(decision(all, "roulette: play").runs, needs.roulette);
         EXPECT_EQ(decision(all, "branches").runs, needs.branches);
@@ -107,6 +111,28 @@ TEST(Decisions, TellWhyAreaLightsAreNotSampled) {
     Scene shiny = world({specular});
     add(shiny, specular).emission = dvec3{1};
     EXPECT_EQ(reason(shiny), "no surface samples them");
+}
+
+TEST(Decisions, TellWhereLightIsKnownInClosedForm) {
+    Scene scene = world({diffuse});
+    const auto reason = [&] { return decision(Plan(scene).decisions(), "shadow: closed form").reason; };
+    scene.settings.light_sampling = LightSampling::cone;
+    EXPECT_EQ(reason(), "light sampling is by cone");
+    scene.settings.light_sampling = LightSampling::exact;
+    EXPECT_EQ(reason(), "no area light is sampled");
+    add_area_light(scene);
+    EXPECT_EQ(reason(), "diffuse surfaces get their light without rays, but where several spheres take parts of it");
+    Scene several = scene;
+    add_area_light(several);
+    several.settings.light_choice = LightChoice::power;
+    EXPECT_EQ(decision(Plan(several).decisions(), "shadow: closed form").reason, "every vertex chooses its light");
+    while (scene.primitives.size() < 64) add(scene, diffuse);
+    EXPECT_EQ(reason(), "64 spheres: they are sooner met by rays");
+    Scene rough = world({glossy});
+    add(rough, glossy).emission = dvec3{1};
+    rough.settings.light_sampling = LightSampling::exact;
+    EXPECT_EQ(decision(Plan(rough).decisions(), "shadow: closed form").reason,
+              "no diffuse surface samples area lights");
 }
 
 TEST(Decisions, TellHowLightsAreChosen) {

@@ -153,6 +153,54 @@ TEST(Needs, AreaLightsSampledAsTheTransportSays) {
     EXPECT_TRUE(needs.scattering_pdf && needs.competing && needs.lobes);
 }
 
+TEST(Needs, ClosedFormsWhereDiffuseSurfacesSampleAllAreaLights) {
+    Scene scene = world({diffuse, glossy});
+    add_area_light(scene);
+    scene.settings.light_sampling = LightSampling::exact;
+    const auto with = [&](Transport transport, Integrator integrator = Integrator::path_tracing) {
+        scene.settings.transport = transport;
+        scene.settings.integrator = integrator;
+        return needs_of(scene).exact;
+    };
+    EXPECT_TRUE(with(Transport::mis) && with(Transport::nee) && with(Transport::mis, Integrator::whitted));
+    EXPECT_FALSE(with(Transport::naive) || with(Transport::mis, Integrator::depth));
+    scene.settings.integrator = Integrator::path_tracing;
+    for (const LightSampling other : {LightSampling::area, LightSampling::cone}) {
+        scene.settings.light_sampling = other;
+        EXPECT_FALSE(with(Transport::mis));
+    }
+}
+
+// What a path runs into last need not be looked at where it cannot count.
+TEST(Needs, LightsAloneWhereScatteringFindsNothing) {
+    Scene scene = world({diffuse, glossy});
+    add_area_light(scene);
+    const auto lights_only = [&](Transport transport, LightSampling sampling) {
+        scene.settings.transport = transport;
+        scene.settings.light_sampling = sampling;
+        return needs_of(scene).lights_only;
+    };
+    using enum LightSampling;
+    EXPECT_TRUE(lights_only(Transport::nee, cone) && lights_only(Transport::nee, exact));
+    EXPECT_FALSE(lights_only(Transport::naive, exact) || lights_only(Transport::mis, cone));
+    EXPECT_TRUE(lights_only(Transport::mis, exact));
+    const Scene apart = scene;
+    scene.background = dvec3{1};
+    EXPECT_FALSE(lights_only(Transport::mis, exact)) << "the sky";
+    scene = apart;
+    scene.primitives[2].centre = scene.primitives[0].centre + dvec3{1.5, 0, 0};
+    EXPECT_FALSE(lights_only(Transport::mis, exact)) << "a surface within the light";
+    scene.primitives[2].centre = scene.primitives[0].centre;
+    scene.primitives[2].radius = 0.5;
+    EXPECT_TRUE(lights_only(Transport::mis, exact)) << "the light is within another sphere";
+    scene = apart;
+    scene.camera.position = scene.primitives[2].centre;
+    EXPECT_FALSE(lights_only(Transport::mis, exact)) << "the camera within the light";
+    scene = world({diffuse, glossy});
+    add(scene, dielectric).emission = dvec3{1};
+    EXPECT_FALSE(lights_only(Transport::mis, exact)) << "a light of glass";
+}
+
 TEST(Needs, NoCompetitionWhereNoSurfaceSamplesLights) {
     for (const Transport transport : {Transport::nee, Transport::mis}) {
         Scene scene = world({specular, dielectric});

@@ -41,6 +41,8 @@ std::vector<Variant> path_variants(const Scene& scene) {
         variants.push_back({"nee, cone", with(nee, cone, true, stratified)});
         variants.push_back({"nee, area, no roulette", with(nee, area, false, stratified)});
         variants.push_back({"naive", with(naive, cone, true, stratified)});
+        variants.push_back({"mis, exact", with(mis, exact, true, stratified)});
+        variants.push_back({"nee, exact", with(nee, exact, true, uniform)});
     }
     return variants;
 }
@@ -59,8 +61,10 @@ std::vector<Variant> other_variants(const Scene& scene) {
     };
     if (isa_supported(Isa::sse2))
         variants.push_back({"SSE2", with(LightSampling::cone, Estimator::stratified), Isa::sse2});
-    if (has_area_lights(scene) && scene.settings.integrator == Integrator::whitted)
+    if (has_area_lights(scene) && scene.settings.integrator == Integrator::whitted) {
         variants.push_back({"area, stratified", with(LightSampling::area, Estimator::stratified)});
+        variants.push_back({"exact, stratified", with(LightSampling::exact, Estimator::stratified)});
+    }
     return variants;
 }
 

@@ -2,6 +2,7 @@
 // Everything is a member of a template on V, so that the linker can share nothing between instruction sets.
 #pragma once
 
+#include "kernels/arcs.hpp"
 #include "kernels/lanes/compress.hpp"
 #include "kernels/sampling.hpp"
 #include "probe/lane_probe.hpp"
@@ -70,6 +71,14 @@ struct Probe {
     static void choose_words(const Real* a, const Real* b, const Word* yes, const Word* no, Word* out, Count n) {
         for (Count i = 0; i < n; i += V::count)
             kernels::save(out + i, kernels::choose(number(a + i) < number(b + i), word(yes + i), word(no + i)));
+    }
+    static void segment(const Real* sine, const Real* cosine, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count)
+            kernels::save(out + i, kernels::segment<V>(number(sine + i), number(cosine + i)));
+    }
+    static void angle(const Real* sine, const Real* cosine, Real* out, Count n) {
+        for (Count i = 0; i < n; i += V::count)
+            kernels::save(out + i, kernels::angle<V>(number(sine + i), number(cosine + i)));
     }
     static void unit_interval(const Word* words, Real* out, Count n) {
         for (Count i = 0; i < n; i += V::count) kernels::save(out + i, kernels::unit_interval(word(words + i)));
@@ -158,6 +167,7 @@ constexpr LaneProbe<typename V::Real> make_probe() {
     p.lanes = V::count;
     p.mul_add = P::mul_add, p.neg_mul_add = P::neg_mul_add, p.choose_less = P::choose_less;
     p.minimum = P::minimum, p.maximum = P::maximum, p.divide = P::divide;
+    p.segment = P::segment, p.angle = P::angle;
     p.root = P::root, p.magnitude = P::magnitude, p.sincos = P::sincos, p.flip_sign = P::flip_sign;
     p.multiply_words = P::multiply_words, p.words_equal = P::words_equal, p.choose_words = P::choose_words;
     p.unit_interval = P::unit_interval, p.truncate = P::truncate, p.to_number = P::to_number;

@@ -21,6 +21,7 @@ struct LaneProbe {
     Numbers2 minimum, maximum, divide;
     using Numbers1 = void (*)(const Real* a, Real* out, std::uint32_t n);
     Numbers1 root, magnitude;
+    Numbers2 segment, angle;  ///< of sine and cosine
     void (*sincos)(const Real* turns, Real* sin, Real* cos, std::uint32_t n);
     void (*flip_sign)(const Real* a, const Word* sign, Real* out, std::uint32_t n);
 
