@@ -28,6 +28,8 @@ void each_array(Storage& storage, std::uint32_t parts, std::uint32_t slots, std:
     if (parts & lobe_part) queue(storage.lobes, records);
     if (parts & shadow_part) queue(storage.shadows, records);
     if (parts & aside_part) queue(storage.aside, records);
+    if (parts & chain_part) queue(storage.slots.chains, slots);
+    if (parts & pick_part) queue(storage.picks, records);
     if (parts & sorted_part) {
         queue(storage.sorted_rays, records);
         queue(storage.sorted_hits, records);

@@ -1,6 +1,7 @@
 // Stage `shade`, first step: the radiance a ray runs into, an emitter's or the enclosing volume's.
 #pragma once
 
+#include "kernels/lanes/compress.hpp"
 #include "kernels/light.hpp"
 #include "kernels/queues.hpp"
 #include "kernels/radiance.hpp"
@@ -19,13 +20,26 @@ ORRERY_INLINE Floats<V> scattering_weight(const Floats<V>& pdf, const Floats<V>&
     return choose(whole, F(1), max(share, pdf * F(0)));  // the second where the first is no number
 }
 
-/// `lights` are all that a vertex may sample, with their probabilities where it samples one of them.
+/// Lanes whose rays came from a vertex that samples caustics over one smooth sphere, and from that here.
 template <class V>
-void emission(const Spheres<V>& spheres, const Lights<V>& lights, const Background<RealOf<V>>& background,
-              LightStrategy strategy, const Rays<V>& rays, const Hits<V>& hits, std::uint32_t count,
-              const Slots<V>& slots) {
+ORRERY_INLINE Mask<V> came_over_ball(const ChainTable<RealOf<V>>& chains, const Rays<V>& rays, std::uint32_t i,
+                                     const Mask<V>& emits) {
+    using U = Words<V>;
+    const U slot = choose(emits, load<U>(rays.slot + i), U(0u));
+    const auto closed = words_equal(gather<U>(chains.state, slot) & U(chain_closed), U(chain_closed));
+    const auto direct = load<Floats<V>>(rays.pdf + i) <= Floats<V>(std::numeric_limits<RealOf<V>>::max());
+    return emits && closed && !direct && words_equal(gather<U>(chains.ball, slot), load<U>(rays.departed + i));
+}
+
+/// `lights` are all that a vertex may sample, with their probabilities where it samples one of them. Rays that came
+/// over one smooth sphere from a vertex that samples caustics are put aside, in `aside`; returns how many.
+template <class V>
+std::uint32_t emission(const Spheres<V>& spheres, const Lights<V>& lights, const Background<RealOf<V>>& background,
+                       LightStrategy strategy, const Rays<V>& rays, const Hits<V>& hits, std::uint32_t count,
+                       const Slots<V>& slots, const Picks<V>& aside) {
     using F = Floats<V>;
     using U = Words<V>;
+    std::uint32_t put_aside = 0;
     const bool emitters = lights.count > lights.points, shines = background.shines();
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const auto live = first_lanes<V>(count - i);
@@ -39,8 +53,16 @@ void emission(const Spheres<V>& spheres, const Lights<V>& lights, const Backgrou
         }
         if (!emitters) continue;
         const U surface = lookup<U>(spheres.surface, id, spheres.count);
-        const auto emits = live && !missed && words_equal(surface & U(surface_emits), U(surface_emits));
+        auto emits = live && !missed && words_equal(surface & U(surface_emits), U(surface_emits));
         if (!any(emits)) continue;
+        if (slots.chains.state != nullptr) {
+            const auto over_ball = came_over_ball<V>(slots.chains, rays, i, emits);
+            if (const std::uint32_t chosen = bits(over_ball); chosen != 0) {
+                compress_store<V>(aside.place + put_aside, consecutive<V>(i), chosen);
+                put_aside += static_cast<std::uint32_t>(std::popcount(chosen));
+                emits = emits && !over_ball;
+            }
+        }
         const U light = lookup<U>(spheres.light, id, spheres.count);
         F weight(1);
         if (rays.pdf != nullptr) {
@@ -55,6 +77,7 @@ void emission(const Spheres<V>& spheres, const Lights<V>& lights, const Backgrou
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i) * weight;
         add_radiance<V>(slots, load<U>(rays.slot + i), throughput * radiance, emits);
     }
+    return put_aside;
 }
 
 }  // namespace orrery::kernels

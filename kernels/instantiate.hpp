@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "kernels/caustic_connect.hpp"
+#include "kernels/caustic_emission.hpp"
 #include "kernels/connect.hpp"
 #include "kernels/emission.hpp"
 #include "kernels/exact.hpp"
@@ -40,6 +42,15 @@ constexpr Stages<RealOf<V>> make_stages(Isa isa) {
     s.shadow = shadow<S>;
     s.shadow_coherent = shadow_coherent<S>;
     s.shadow_tree = shadow_tree<V>;
+    s.caustic_emission = caustic_emission<V>;
+    s.pick_caustics[0] = pick_caustics<V, Response::diffuse>;
+    s.pick_caustics[1] = pick_caustics<V, Response::glossy>;
+    s.connect_caustic[0] = connect_caustic<V, Response::diffuse>;
+    s.connect_caustic[1] = connect_caustic<V, Response::glossy>;
+    s.unblocked = unblocked<S>;
+    s.unblocked_coherent = unblocked_coherent<S>;
+    s.unblocked_tree = unblocked_tree<V>;
+    s.follow_caustic = follow_caustic<W>;
     s.roulette = roulette<W>;
     s.expire = expire<V>;
     s.branch = branch<V>;

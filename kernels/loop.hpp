@@ -177,9 +177,37 @@ void intersect_coherent(const Spheres<V>& spheres, const Rays<V>& rays, std::uin
     }
 }
 
-template <class V, class Among, class Target>
+/// What is lit: radiance to its slot.
+template <class V>
+struct AddRadiance {
+    const Shadows<V>& queue;
+    const Slots<V>& slots;
+
+    ORRERY_INLINE void operator()(std::uint32_t i, const Mask<V>& lit) const {
+        using U = Words<V>;
+        if (!any(lit)) return;
+        add_radiance<V>(slots, load<U>(queue.slot + i), load3<V>(queue.r + i, queue.g + i, queue.b + i), lit);
+    }
+};
+
+/// What is lit: to the front of the queue, in order.
+template <class V>
+struct KeepUnblocked {
+    const Shadows<V>& queue;
+    std::uint32_t size = 0;
+
+    ORRERY_INLINE void operator()(std::uint32_t i, const Mask<V>& lit) {
+        const std::uint32_t chosen = bits(lit);
+        if (chosen == 0) return;
+        move_record<V>(queue, i, queue, size, chosen);
+        size += static_cast<std::uint32_t>(std::popcount(chosen));
+    }
+};
+
+/// Calls deliver(i, lanes that nothing blocks) for every vector of segments.
+template <class V, class Among, class Target, class Deliver>
 ORRERY_INLINE void shadow_among(const Spheres<V>& spheres, const Among& among, const Shadows<V>& queue,
-                                std::uint32_t begin, std::uint32_t end, const Target& target, const Slots<V>& slots) {
+                                std::uint32_t begin, std::uint32_t end, const Target& target, Deliver& deliver) {
     using F = Floats<V>;
     using U = Words<V>;
     for (std::uint32_t i = begin; i < end; i += V::count) {
@@ -189,9 +217,18 @@ ORRERY_INLINE void shadow_among(const Spheres<V>& spheres, const Among& among, c
         const U departed = choose(live, load<U>(queue.departed + i), U(no_sphere));
         const auto blocked = any_hit<V>(spheres, among, o, d, departed, FromOrigin{}, load<F>(queue.inverse_t_max + i),
                                         targets_at<V>(target, i), live);
-        const auto lit = live && !blocked;
-        if (!any(lit)) continue;
-        add_radiance<V>(slots, load<U>(queue.slot + i), load3<V>(queue.r + i, queue.g + i, queue.b + i), lit);
+        deliver(i, live && !blocked);
+    }
+}
+
+/// The same for a packet at a time, as intersect_coherent.
+template <class V, class Target, class Deliver>
+ORRERY_INLINE void shadow_in_packets(const Spheres<V>& spheres, const Shadows<V>& queue, std::uint32_t count,
+                                     const Target& target, Deliver& deliver) {
+    for (std::uint32_t begin = 0; begin < count; begin += packet_size) {
+        const std::uint32_t end = count - begin < packet_size ? count : begin + packet_size;
+        const SomeSpheres among = candidates<V>(spheres, span_of(queue, begin, end - begin));
+        shadow_among<V>(spheres, among, queue, begin, end, target, deliver);
     }
 }
 
@@ -208,7 +245,8 @@ template <class V>
 void shadow(const Spheres<V>& spheres, const Shadows<V>& queue, std::uint32_t count, std::uint32_t target,
             const Slots<V>& slots) {
     with_target(queue, target, [&](const auto& ends) ORRERY_INLINE_LAMBDA {
-        shadow_among<V>(spheres, AllSpheres{spheres.count}, queue, 0, count, ends, slots);
+        AddRadiance<V> deliver{queue, slots};
+        shadow_among<V>(spheres, AllSpheres{spheres.count}, queue, 0, count, ends, deliver);
     });
 }
 
@@ -217,12 +255,26 @@ template <class V>
 void shadow_coherent(const Spheres<V>& spheres, const Shadows<V>& queue, std::uint32_t count, std::uint32_t target,
                      const Slots<V>& slots) {
     with_target(queue, target, [&](const auto& ends) ORRERY_INLINE_LAMBDA {
-        for (std::uint32_t begin = 0; begin < count; begin += packet_size) {
-            const std::uint32_t end = count - begin < packet_size ? count : begin + packet_size;
-            const SomeSpheres among = candidates<V>(spheres, span_of(queue, begin, end - begin));
-            shadow_among<V>(spheres, among, queue, begin, end, ends, slots);
-        }
+        AddRadiance<V> deliver{queue, slots};
+        shadow_in_packets<V>(spheres, queue, count, ends, deliver);
     });
+}
+
+/// Compacts the queue to the segments that nothing but `target` meets; returns how many.
+template <class V>
+std::uint32_t unblocked(const Spheres<V>& spheres, const Shadows<V>& queue, std::uint32_t count, std::uint32_t target) {
+    KeepUnblocked<V> deliver{queue};
+    shadow_among<V>(spheres, AllSpheres{spheres.count}, queue, 0, count, target, deliver);
+    return deliver.size;
+}
+
+/// The same, as intersect_coherent.
+template <class V>
+std::uint32_t unblocked_coherent(const Spheres<V>& spheres, const Shadows<V>& queue, std::uint32_t count,
+                                 std::uint32_t target) {
+    KeepUnblocked<V> deliver{queue};
+    shadow_in_packets<V>(spheres, queue, count, target, deliver);
+    return deliver.size;
 }
 
 }  // namespace orrery::kernels

@@ -114,6 +114,47 @@ struct SobolQueue {
     }
 };
 
+/// How a path came from its last vertex of no delta to where it is, as far as that was over one smooth sphere; by slot.
+/// Written at smooth spheres only.
+template <class Real>
+struct ChainTable {
+    using Word = WordOf<Real>;
+    Word* state;         ///< one of the words below with the number of chords, or 0: not over one smooth sphere
+    Word* ball;          ///< the smooth sphere
+    Word* departed;      ///< the vertex's sphere and side
+    Real *x, *y, *z;     ///< the vertex
+    Real *dx, *dy, *dz;  ///< direction from it to the ball, unit length
+    Real* pdf;           ///< density of that direction times Fresnel's probability of what happened at the ball
+
+    template <class Visit>
+    ORRERY_INLINE static void each_field(Visit&& visit) {
+        visit("state", &ChainTable::state), visit("ball", &ChainTable::ball);
+        visit("departed", &ChainTable::departed);
+        visit("x", &ChainTable::x), visit("y", &ChainTable::y), visit("z", &ChainTable::z);
+        visit("dx", &ChainTable::dx), visit("dy", &ChainTable::dy), visit("dz", &ChainTable::dz);
+        visit("pdf", &ChainTable::pdf);
+    }
+};
+inline constexpr std::uint32_t chain_chords = 3;  ///< mask; three or more count as three
+inline constexpr std::uint32_t chain_open = 4;    ///< the path is within the ball
+inline constexpr std::uint32_t chain_closed = 8;  ///< it has left it
+inline constexpr std::uint32_t chain_begun = 16;  ///< it has met it, what happened there is still open
+
+/// Vertices that sample a caustic.
+template <class Real>
+struct PickQueue {
+    using Word = WordOf<Real>;
+    Word* place;        ///< in the ray queue
+    Word* caustic;      ///< which one
+    Real* probability;  ///< of sampling any of its group
+
+    template <class Visit>
+    ORRERY_INLINE static void each_field(Visit&& visit) {
+        visit("place", &PickQueue::place), visit("caustic", &PickQueue::caustic);
+        visit("probability", &PickQueue::probability);
+    }
+};
+
 /// The (pixel, sample) pairs of a wave, indexed by slot.
 template <class Real>
 struct SlotTable {
@@ -123,6 +164,7 @@ struct SlotTable {
     Real *plane_x, *plane_y;  ///< corner of the sample's cell on the image plane at distance 1
     Real* radiance;           ///< gathered so far: r, g, b and one unused, four numbers per slot
     SobolQueue<Real> sobol;   ///< present where samples are those of Sobol's sequences
+    ChainTable<Real> chains;  ///< present where caustics are sampled
 
     template <class Visit>
     ORRERY_INLINE static void each_field(Visit&& visit) {
@@ -175,5 +217,7 @@ template <class V>
 using Shadows = ShadowQueue<typename V::Real>;
 template <class V>
 using Slots = SlotTable<typename V::Real>;
+template <class V>
+using Picks = PickQueue<typename V::Real>;
 
 }  // namespace orrery::kernels

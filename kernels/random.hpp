@@ -12,17 +12,18 @@ namespace orrery::kernels {
 
 /// What a block of four random numbers is for. One call of `random_block` serves one of these.
 enum class Dimension : std::uint32_t {
-    camera,      ///< x, y: position in the pixel's cell; z, w: point on the lens
-    scattering,  ///< x, y: direction; z: which lobe
-    roulette,    ///< x: survive or not
-    light,       ///< light + i: the point or direction sampled for light i
+    camera,              ///< x, y: position in the pixel's cell; z, w: point on the lens
+    scattering,          ///< x, y: direction; z: which lobe
+    roulette,            ///< x: survive or not
+    light,               ///< light + i: the point or direction sampled for light i
+    caustic = 1u << 30,  ///< caustic + i, for group i. x: sampled or not, and which; y, z: impact parameter; w: azimuth
 };
 
 /// The part of the counter all lanes share.
 struct RandomKey {
     std::uint32_t seed = 0;
     Dimension dimension = Dimension::camera;
-    std::uint32_t index = 0;  ///< which light, for Dimension::light
+    std::uint32_t index = 0;  ///< which light or group of caustics
 };
 
 template <class U>

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "kernels/chain.hpp"
 #include "kernels/lobes.hpp"
 #include "kernels/stages.hpp"
 #include "kernels/vertex.hpp"
@@ -100,6 +101,9 @@ void scatter(const ScatterContext<RealOf<V>>& context, Range run, const Rays<V>&
     constexpr int dimensions = traits_of(kind).dimensions;
     const RandomKey key{context.seed, Dimension::scattering, 0};
     if constexpr (dimensions > 0) draw<V, dimensions>(context.slots, rays, run, key, context.bounce);
+    constexpr bool smooth = traits_of(kind).response == Response::none;
+    const bool noted = smooth && context.slots.chains.state != nullptr;
+    if (noted) begin_chains<V>(context.slots.chains, run, rays, hits);
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
         // Ahead of the vertex, which needs none of them: the processor works on both at once.
@@ -127,6 +131,7 @@ void scatter(const ScatterContext<RealOf<V>>& context, Range run, const Rays<V>&
                                 weight_of<V, kind>(context.materials, in.vertex.material, out);
         save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(in.live, throughput, none));
     }
+    if (noted) note_events<V, traits_of(kind).is_interface>(context, run, rays, hits);
 }
 
 }  // namespace orrery::kernels

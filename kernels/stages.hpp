@@ -38,6 +38,18 @@ struct ConnectContext {
 /// In place of a light's number: every vertex chooses its own.
 inline constexpr std::uint32_t chosen_light = 0xFFFFFFFFu;
 
+/// What sampling caustics knows.
+template <class Real>
+struct CausticContext {
+    SphereTable<Real> spheres;
+    MaterialTable<Real> materials;
+    LightTable<Real> lights;
+    SlotTable<Real> slots;
+    CausticTable<Real> caustics;
+    std::uint32_t seed = 0;
+    std::uint32_t bounce = 0;
+};
+
 /// Segments as columns, capacity a multiple of `widest`.
 template <class Real>
 struct SegmentColumns {
@@ -59,8 +71,11 @@ struct Stages {
                                const HitQueue<Real>&);
     Intersect intersect, intersect_coherent, intersect_tree;
 
-    void (*emission)(const SphereTable<Real>&, const LightTable<Real>&, const Background<Real>&, LightStrategy,
-                     const RayQueue<Real>&, const HitQueue<Real>&, std::uint32_t count, const SlotTable<Real>&);
+    std::uint32_t (*emission)(const SphereTable<Real>&, const LightTable<Real>&, const Background<Real>&, LightStrategy,
+                              const RayQueue<Real>&, const HitQueue<Real>&, std::uint32_t count, const SlotTable<Real>&,
+                              const PickQueue<Real>&);
+    void (*caustic_emission)(const CausticContext<Real>&, std::uint32_t count, const RayQueue<Real>&,
+                             const HitQueue<Real>&, const PickQueue<Real>&);
     Runs (*sort_by_scattering)(const SphereTable<Real>&, std::uint32_t kinds, const RayQueue<Real>&,
                                const HitQueue<Real>&, std::uint32_t count, const RayQueue<Real>& sorted_rays,
                                const HitQueue<Real>& sorted_hits);
@@ -79,6 +94,19 @@ struct Stages {
     using Shadow = void (*)(const SphereTable<Real>&, const ShadowQueue<Real>&, std::uint32_t count,
                             std::uint32_t target, const SlotTable<Real>&);
     Shadow shadow, shadow_coherent, shadow_tree;
+
+    using PickCaustics = std::uint32_t (*)(const CausticContext<Real>&, std::uint32_t group, Range,
+                                           const RayQueue<Real>&, const PickQueue<Real>&);
+    PickCaustics pick_caustics[2];  ///< by Response
+    using ConnectCaustic = std::uint32_t (*)(const CausticContext<Real>&, std::uint32_t which, std::uint32_t picked,
+                                             const RayQueue<Real>&, const LobeQueue<Real>&, const PickQueue<Real>&,
+                                             const ShadowQueue<Real>&);
+    ConnectCaustic connect_caustic[2];  ///< by Response
+    using Unblocked = std::uint32_t (*)(const SphereTable<Real>&, const ShadowQueue<Real>&, std::uint32_t count,
+                                        std::uint32_t target);
+    Unblocked unblocked, unblocked_coherent, unblocked_tree;
+    void (*follow_caustic)(const SphereTable<Real>&, const Caustic<Real>&, std::uint32_t event,
+                           const ShadowQueue<Real>&, std::uint32_t count);
 
     std::uint32_t (*roulette)(const SlotTable<Real>&, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs&,
                               const RayQueue<Real>&);

@@ -137,6 +137,49 @@ struct LightTable {
     const Real* inverse_probability = nullptr;
 };
 
+/// How many chords of light within a ball a Caustic may have: reflected off it, straight through, once around inside.
+inline constexpr std::uint32_t most_chords = 2;
+/// Steps of the impact parameter between which a Caustic is looked for.
+inline constexpr std::uint32_t caustic_steps = 24;
+
+/// Light of one area light that reaches a vertex over one smooth sphere, the ball, by a number of chords within it. All
+/// normals of a ball pass its centre, so that such a path stays in a plane and passes the centre at the same distance
+/// s, its impact parameter, before and after every event.
+template <class Real>
+struct Caustic {
+    std::uint32_t ball, light, lamp;  ///< sphere, light, and the light's sphere
+    std::uint32_t chords;             ///< <= most_chords
+    bool obstructed;                  ///< some other surface may cut the chords
+    Real cx, cy, cz, radius, radius2;
+    Real eta;  ///< of the ball, inside over outside; of a mirror without meaning
+    bool mirror;
+    Real wx, wy, wz;  ///< from the ball's centre to the lamp's
+    Real lamp_radius;
+    Real r, g, b;  ///< the lamp's radiance times what the ball's surface leaves of it, Fresnel's share apart
+    Real share;    ///< of the samples over its ball
+    /// At impact parameter s the events turn the direction; that angle less asin(s / distance) is what the vertex sees.
+    struct Step {
+        Real s, sine, cosine;
+        Real share;  ///< Fresnel's, of all events
+    } step[caustic_steps + 1];
+};
+
+/// The caustics of one ball, `first` and those behind it. A vertex samples one of them at most.
+template <class Real>
+struct CausticGroup {
+    std::uint32_t first, count;
+    Real rate;  ///< how often, over what a vertex knows of the ball (caustic.hpp)
+};
+
+/// All that are sampled.
+template <class Real>
+struct CausticTable {
+    std::uint32_t count = 0, groups = 0;
+    const Caustic<Real>* entries = nullptr;
+    const CausticGroup<Real>* group = nullptr;
+    Real carried = 1;  ///< what an event leaves of the throughput, about: by that, later vertices sample less often
+};
+
 /// The radiance of the enclosing volume.
 template <class Real>
 struct Background {

@@ -152,10 +152,10 @@ void intersect_tree(const Spheres<V>& spheres, const Rays<V>& rays, std::uint32_
     }
 }
 
-/// `target` as in targets_at.
-template <class V, class Target>
+/// `target` as in targets_at, `deliver` as in shadow_among.
+template <class V, class Target, class Deliver>
 ORRERY_INLINE void shadow_in_tree(const Spheres<V>& spheres, const Shadows<V>& queue, std::uint32_t count,
-                                  const Target& target, const Slots<V>& slots) {
+                                  const Target& target, Deliver& deliver) {
     using Word = WordOf<RealOf<V>>;
     using U = Words<V>;
     alignas(64) Word occluded[packet_size];
@@ -163,18 +163,14 @@ ORRERY_INLINE void shadow_in_tree(const Spheres<V>& spheres, const Shadows<V>& q
         const std::uint32_t packet = count - first < packet_size ? count - first : packet_size;
         SphereList<RealOf<V>> list;
         if (collect<V>(spheres, span_of(queue, first, packet), list)) {
-            shadow_among<V>(spheres, list, queue, first, first + packet, target, slots);
+            shadow_among<V>(spheres, list, queue, first, first + packet, target, deliver);
             continue;
         }
         occluded_in_tree<V>(spheres, source_of(queue, first), queue.inverse_t_max + first, packet,
                             targets_behind(target, first), occluded);
         for (std::uint32_t i = 0; i < packet; i += V::count) {
             const auto live = first_lanes<V>(packet - i);
-            const auto lit = live && words_equal(load<U>(occluded + i), U(0u));
-            const std::uint32_t at = first + i;
-            if (any(lit))
-                add_radiance<V>(slots, load<U>(queue.slot + at), load3<V>(queue.r + at, queue.g + at, queue.b + at),
-                                lit);
+            deliver(first + i, live && words_equal(load<U>(occluded + i), U(0u)));
         }
     }
 }
@@ -182,8 +178,18 @@ ORRERY_INLINE void shadow_in_tree(const Spheres<V>& spheres, const Shadows<V>& q
 template <class V>
 void shadow_tree(const Spheres<V>& spheres, const Shadows<V>& queue, std::uint32_t count, std::uint32_t target,
                  const Slots<V>& slots) {
-    with_target(queue, target,
-                [&](const auto& ends) ORRERY_INLINE_LAMBDA { shadow_in_tree<V>(spheres, queue, count, ends, slots); });
+    with_target(queue, target, [&](const auto& ends) ORRERY_INLINE_LAMBDA {
+        AddRadiance<V> deliver{queue, slots};
+        shadow_in_tree<V>(spheres, queue, count, ends, deliver);
+    });
+}
+
+template <class V>
+std::uint32_t unblocked_tree(const Spheres<V>& spheres, const Shadows<V>& queue, std::uint32_t count,
+                             std::uint32_t target) {
+    KeepUnblocked<V> deliver{queue};
+    shadow_in_tree<V>(spheres, queue, count, target, deliver);
+    return deliver.size;
 }
 
 }  // namespace orrery::kernels

@@ -80,6 +80,12 @@ std::vector<Decision> Plan::decisions() const {
            : n.tree      ? fmt::format("{}: they are sooner met by rays", counted(scene_.primitives.size(), "sphere"))
            : n.one_light ? "every vertex chooses its light"
                          : "no diffuse surface samples area lights");
+    decide("caustics: area lights", n.caustics,
+           n.caustics     ? fmt::format("{} over one smooth sphere, weighed against what is met by chance",
+                                        counted(caustics_.size(), "path"))
+           : !s.caustics  ? "switched off"
+           : !n.competing ? "only where light samples compete with scattering"
+                          : "no smooth sphere stands apart from a light");
     const auto lights = sampled_lights();
     decide("shadow: light choice", n.one_light,
            lights == 0                            ? "no light is sampled"

@@ -82,6 +82,7 @@ void Plan::plan_tables(unsigned threads) {
     nodes_ = tree.nodes.size();
     const auto fill = [&]<class Real>(Real) {
         auto& tables = tables_.emplace<Tables<Real>>(scene_, frame_, unit_, order, std::move(tree));
+        if (needs_.caustics) tables.sample_caustics(scene_, unit_, order, caustics_);
         if (!needs_.one_light) return;
         if (needs_.connect_area != 0) tables.choose_lights(scene_, true);
         if ((needs_.connect_point & ~needs_.connect_area) != 0) tables.choose_lights(scene_, false);
@@ -122,6 +123,10 @@ void Plan::plan_needs() {
         needs_.competing = s.transport == Transport::mis;
         needs_.connect_area = needs_.competing ? rough : diffuse;
         needs_.scattering_pdf = needs_.connect_area != 0;
+    }
+    if (needs_.competing && needs_.connect_area != 0 && s.caustics) {
+        caustics_ = plan_caustics(scene_);
+        needs_.caustics = !caustics_.empty();
     }
     needs_.one_light = s.light_choice != LightChoice::all && sampled_lights() > 1;
     needs_.roulette = s.roulette && s.depth > s.roulette_from;

@@ -29,6 +29,7 @@ struct Needs {
     std::uint32_t connect_area = 0;   ///< kinds whose vertices sample area lights
     bool one_light = false;           ///< a vertex samples one light of several
     bool exact = false;               ///< diffuse vertices take area lights in closed form where there is one
+    bool caustics = false;            ///< vertices sample light that comes over one smooth sphere
     bool competing = false;           ///< light samples and scattering share the work (mis)
     bool lights_only = false;         ///< what rays from vertices that sample area lights run into counts for nothing
     bool scattering_pdf = false;      ///< rays carry the density that made them
@@ -104,6 +105,7 @@ private:
     std::vector<Diagnostic> warnings_;
     std::size_t nodes_ = 0;                        ///< of the tree
     std::size_t emitters_ = 0, point_lights_ = 0;  ///< that are switched on
+    std::vector<PlannedCaustic> caustics_;
     std::variant<std::monostate, Tables<float>, Tables<double>> tables_;
 };
 

@@ -185,6 +185,41 @@ void Tables<Real>::choose_lights(const Scene& scene, bool area) {
     choices_[which].put_into(lights_[which]);
 }
 
+template <class Real>
+void Tables<Real>::sample_caustics(const Scene& scene, const LengthUnit& in, const std::vector<std::uint32_t>& order,
+                                   const std::vector<PlannedCaustic>& planned) {
+    std::vector<std::uint32_t> sphere(order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) sphere[order[i]] = i;
+    const auto f = [](double v) { return static_cast<Real>(v); };
+    for (const PlannedCaustic& p : planned) {
+        const Primitive &ball = scene.primitives[p.ball], &lamp = scene.primitives[p.lamp];
+        const Material& material = scene.materials[ball.material];
+        kernels::Caustic<Real> c{};
+        c.ball = sphere[p.ball], c.lamp = sphere[p.lamp], c.chords = p.chords, c.obstructed = p.obstructed;
+        c.light = static_cast<std::uint32_t>(spheres.light[c.lamp]);
+        c.cx = spheres.cx[c.ball], c.cy = spheres.cy[c.ball], c.cz = spheres.cz[c.ball];
+        c.radius = spheres.radius[c.ball], c.radius2 = spheres.radius2[c.ball];
+        c.eta = f(material.eta);
+        c.mirror = scattering_of(material, scene.settings.integrator) == kernels::Scattering::specular;
+        const glm::dvec3 w = lamp.centre - ball.centre;
+        c.wx = f(in.in_units(w.x)), c.wy = f(in.in_units(w.y)), c.wz = f(in.in_units(w.z));
+        c.lamp_radius = spheres.radius[c.lamp];
+        glm::dvec3 colour = *lamp.emission;
+        if (p.chords != 1) colour *= material.rho;
+        if (p.chords > 0) colour *= material.rho_t * material.rho_t;
+        c.r = f(colour.r), c.g = f(colour.g), c.b = f(colour.b);
+        c.share = f(p.share);
+        put_steps(c, in.in_units(ball.radius), material);
+        if (caustics_.empty() || caustics_.back().ball != c.ball)
+            caustic_groups_.push_back({static_cast<std::uint32_t>(caustics_.size()), 0, f(p.rate)});
+        ++caustic_groups_.back().count;
+        caustics_.push_back(c);
+    }
+    const auto count = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
+    caustics = {count(caustics_), count(caustic_groups_), caustics_.data(), caustic_groups_.data(),
+                f(carried_on(scene))};
+}
+
 template class Tables<float>;
 template class Tables<double>;
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernels/tables.hpp"
+#include "plan/caustics.hpp"
 #include "plan/light_choice.hpp"
 #include "plan/tree.hpp"
 #include "plan/unit.hpp"
@@ -36,6 +37,11 @@ public:
     /// All lights, for vertices that sample area lights as well as point lights; or point lights alone.
     const kernels::LightTable<Real>& lights(bool area) const { return lights_[area ? 1 : 0]; }
 
+    /// Lets vertices sample these; `order` as the constructor had it.
+    void sample_caustics(const Scene& scene, const LengthUnit& unit, const std::vector<std::uint32_t>& order,
+                         const std::vector<PlannedCaustic>& planned);
+
+    kernels::CausticTable<Real> caustics;
     kernels::CameraTable<Real> camera{};
     kernels::SphereTable<Real> spheres;
     kernels::MaterialTable<Real> materials;
@@ -61,8 +67,10 @@ private:
     std::array<std::vector<Real>, 8> material_columns_;  // rho, tau, eta, roughness
     std::array<std::vector<Real>, 7> light_columns_;     // position radius colour
     std::array<std::vector<Word>, 1> light_words_;       // sphere
-    std::array<ChoiceColumns<Real>, 2> choices_;         // without area lights, with them
-    std::array<kernels::LightTable<Real>, 2> lights_;    // the same
+    std::vector<kernels::Caustic<Real>> caustics_;
+    std::vector<kernels::CausticGroup<Real>> caustic_groups_;
+    std::array<ChoiceColumns<Real>, 2> choices_;       // without area lights, with them
+    std::array<kernels::LightTable<Real>, 2> lights_;  // the same
 };
 
 extern template class Tables<float>;

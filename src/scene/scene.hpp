@@ -74,6 +74,7 @@ struct RenderSettings {
     Transport transport = Transport::mis;
     LightSampling light_sampling = LightSampling::cone;
     LightChoice light_choice = LightChoice::all;
+    bool caustics = true;  ///< light over one smooth sphere is sampled
     bool roulette = true;
     /// So many scattering events of a path are never followed by roulette: played from the first on it costs more noise
     /// than it saves time (bench/TRADEOFF.md).

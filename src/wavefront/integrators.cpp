@@ -32,6 +32,7 @@ void trace_paths(Wave<Real>& w) {
         Runs runs = w.sort(rays, bounce);
         for (const Scattering kind : w.pipeline.kinds) w.scatter(kind, runs, bounce);
         w.direct_lighting(runs, bounce);
+        w.caustics(runs, bounce);
         if (bounce + 1 == depth) {
             if (!w.pipeline.emission) break;
             if (needs.lights_only) end(runs, needs.connect_area);

@@ -35,6 +35,7 @@ Pipeline<Real>::Pipeline(const Plan& plan, const Table& stages) {
     generate = needs.lens ? &Table::generate_lens : &Table::generate_pinhole;
     intersect = needs.tree ? &Table::intersect_tree : needs.packets ? &Table::intersect_coherent : &Table::intersect;
     shadow = needs.tree ? &Table::shadow_tree : needs.packets ? &Table::shadow_coherent : &Table::shadow;
+    unblocked = needs.tree ? &Table::unblocked_tree : needs.packets ? &Table::unblocked_coherent : &Table::unblocked;
     strategy = static_cast<kernels::LightStrategy>(settings.light_sampling);  // the same words in the same order
     emission = needs.emitters || needs.background;
     sphere_step = needs.tree ? 0 : stages.sphere_step;

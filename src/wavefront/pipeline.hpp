@@ -33,6 +33,8 @@ enum Parts : std::uint32_t {
     shadow_part = 32,
     sorted_part = 64,  ///< sorted rays and hits
     aside_part = 128,  ///< rays that light samples are drawn for
+    chain_part = 256,  ///< what the slots' paths did at smooth spheres
+    pick_part = 512,
 };
 
 /// A stage, as those see it who count and record what it does.
@@ -71,6 +73,7 @@ struct Pipeline {
     typename Table::Generate Table::*generate;
     typename Table::Intersect Table::*intersect;
     typename Table::Shadow Table::*shadow;
+    typename Table::Unblocked Table::*unblocked;
     std::uint32_t sphere_step;  ///< rays that intersect and shadow take at a time; 0: their vectors hold spheres
     kernels::LightStrategy strategy;
     bool emission;                           ///< rays may run into light

@@ -58,6 +58,8 @@ struct Wave {
     void scatter(kernels::Scattering kind, const kernels::Runs& runs, std::uint32_t bounce);
     /// Vertices -> shadow queue -> radiance, for every run that samples lights.
     void direct_lighting(const kernels::Runs& runs, std::uint32_t bounce);
+    /// Vertices -> shadow queue -> over smooth spheres -> radiance, for every run that samples area lights.
+    void caustics(const kernels::Runs& runs, std::uint32_t bounce);
     /// Kill, weigh, compact. Returns the number of survivors.
     std::uint32_t roulette(const kernels::Runs& runs, std::uint32_t bounce);
 
@@ -83,6 +85,9 @@ private:
     template <class Make>
     kernels::Runs call(const StageCall& what, const Make& make);
     /// `lights`: a member of the plan's tables, which recorded calls refer to.
+    void caustic(kernels::Response response, std::uint32_t which, std::uint32_t picked, std::uint32_t bounce);
+    /// Shadow rays -> radiance.
+    void shadow(std::uint32_t rays, std::uint32_t target, std::uint32_t bounce);
     void light(kernels::Scattering kind, const kernels::LightTable<Real>& lights, kernels::Range vertices,
                std::uint32_t which, std::uint32_t bounce);
 };

@@ -61,7 +61,7 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
     carver.field(slots.plane_y, padded);
     carver.field(slots.radiance, std::size_t{4} * padded);
     if (needs.sobol) {
-        const bool four = needs.lens || needs.one_light;
+        const bool four = needs.lens || needs.one_light || needs.caustics;
         const auto drawing_three = kernels::scattering_where([](const auto& traits) { return traits.dimensions > 2; });
         carver.field(slots.sobol.x, capacity);
         carver.field(slots.sobol.y, capacity);
@@ -94,6 +94,10 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
             }
             return true;
         });
+    }
+    if (needs.caustics) {
+        carver.queue(slots.chains, padded);
+        carver.queue(picks, capacity);
     }
     if (needs.branches) {
         branches.slots = slot_count;

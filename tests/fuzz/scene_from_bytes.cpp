@@ -44,6 +44,7 @@ private:
         s.light_sampling = choices_.one_of(std::array{LightSampling::cone, LightSampling::area, LightSampling::exact});
         s.light_choice = choices_.one_of(std::array{LightChoice::all, LightChoice::uniform, LightChoice::power});
         s.precision = choices_.one_of(std::array{Precision::automatic, Precision::binary32, Precision::binary64});
+        s.caustics = choices_.chance(192);
         s.roulette = choices_.chance(128);
         s.roulette_from = choices_.below(10);
         s.width = 1 + choices_.below(5);

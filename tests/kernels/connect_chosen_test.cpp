@@ -217,7 +217,7 @@ TEST_P(ConnectChosenTest, LeavesTheRestToScattering) {
             }
             for (std::uint32_t c = 0; c < 4; ++c) slots->radiance[4 * i + c] = 0;
         }
-        stages.emission(world.spheres, choice.table, world.background, strategy, *found, *hits, size, *slots);
+        stages.emission(world.spheres, choice.table, world.background, strategy, *found, *hits, size, *slots, {});
         std::uint32_t tested = 0;
         for (std::uint32_t i = 0; i < size; ++i) {
             const double share = static_cast<double>(shared->r[i]) / static_cast<double>(whole->r[i]);

@@ -57,7 +57,7 @@ protected:
     void expect_agrees(const World& in, const Wave& w, LightStrategy strategy) const {
         Slots out = w.slots;
         Rays rays = w.rays;
-        stages.emission(in.spheres, in.lights, in.background, strategy, *rays, *w.hits, w.count, *out);
+        stages.emission(in.spheres, in.lights, in.background, strategy, *rays, *w.hits, w.count, *out, {});
         EXPECT_TRUE(rays.same_as(w.rays, -Rays::guard, rays.capacity() + Rays::guard)) << "rays are only read";
         EXPECT_TRUE(out.untouched_but(w.slots, 0, w.count));
         std::vector<glm::dvec3> wanted(w.count);
@@ -90,7 +90,7 @@ protected:
             ASSERT_EQ(out->radiance[4 * s + 3], w.slots->radiance[4 * s + 3]) << "the unused fourth number";
         if (!exact()) return;
         Slots same = w.slots;
-        scalar.emission(in.spheres, in.lights, in.background, strategy, *w.rays, *w.hits, w.count, *same);
+        scalar.emission(in.spheres, in.lights, in.background, strategy, *w.rays, *w.hits, w.count, *same, {});
         EXPECT_TRUE(out.same_as(same, 0, w.count));
     }
 };
@@ -115,7 +115,7 @@ TEST_P(EmissionTest, ExactLightLeavesScatteringWhatIsWithinTheLight) {
         hits->id[0] = within ? inside_bit : 0;
         hits->t[0] = within ? 1.5f : 2;
         for (int c = 0; c < 3; ++c) slots->radiance[c] = 0;
-        stages.emission(lamp.spheres, lamp.lights, lamp.background, strategy, *rays, *hits, 1, *slots);
+        stages.emission(lamp.spheres, lamp.lights, lamp.background, strategy, *rays, *hits, 1, *slots, {});
         return slots->radiance[2];
     };
     for (const double pdf : {0.0, 0.25, 1e30}) {
@@ -173,7 +173,7 @@ TEST_P(EmissionTest, WhatNoDensityTellsWeighsNothing) {
         hits->id[0] = inside_bit;
         hits->t[0] = 0;
         slots->radiance[0] = slots->radiance[1] = slots->radiance[2] = 0;
-        stages.emission(lamp.spheres, lamp.lights, lamp.background, strategy, *rays, *hits, 1, *slots);
+        stages.emission(lamp.spheres, lamp.lights, lamp.background, strategy, *rays, *hits, 1, *slots, {});
         return slots->radiance[2];
     };
     for (const auto strategy : {LightStrategy::area, LightStrategy::cone}) {
@@ -202,7 +202,7 @@ TEST_P(EmissionTest, NoNumberIsLostWhicheverChannelItIsIn) {
             hits->t[0] = missed ? narrow(infinity) : 2;
             for (std::uint32_t c = 0; c < 4; ++c) slots->radiance[c] = 0;
             stages.emission(shining.spheres, shining.lights, shining.background, LightStrategy::cone, *rays, *hits, 1,
-                            *slots);
+                            *slots, {});
             EXPECT_TRUE(std::isnan(slots->radiance[channel])) << "channel " << channel << (missed ? ", missed" : "");
         }
 }
@@ -211,7 +211,7 @@ TEST_P(EmissionTest, ADarkWorldAddsNothing) {
     const World dark({{glm::dvec3(0, 0, 0), 1}});
     const Wave w = wave_of(dark, 125);
     Slots out = w.slots;
-    stages.emission(dark.spheres, dark.lights, dark.background, LightStrategy::cone, *w.rays, *w.hits, 125, *out);
+    stages.emission(dark.spheres, dark.lights, dark.background, LightStrategy::cone, *w.rays, *w.hits, 125, *out, {});
     EXPECT_TRUE(out.same_as(w.slots, -Slots::guard, out.capacity() + Slots::guard));
 }
 
@@ -219,7 +219,8 @@ TEST_P(EmissionTest, DeadRaysAddNothing) {
     Wave w = wave_of(world, 125);
     for (std::uint32_t i = 0; i < 125; ++i) put3(w.rays->tr, w.rays->tg, w.rays->tb, i, glm::dvec3(0));
     Slots out = w.slots;
-    stages.emission(world.spheres, world.lights, world.background, LightStrategy::cone, *w.rays, *w.hits, 125, *out);
+    stages.emission(world.spheres, world.lights, world.background, LightStrategy::cone, *w.rays, *w.hits, 125, *out,
+                    {});
     EXPECT_TRUE(out.same_as(w.slots, -Slots::guard, out.capacity() + Slots::guard));
 }
 

@@ -210,7 +210,7 @@ TEST_P(LightSampling, BothTechniquesShareTheLight) {
                 hits->id[i] = 1 | (s.within() ? inside_bit : 0);
                 slots->radiance[4 * i] = slots->radiance[4 * i + 1] = slots->radiance[4 * i + 2] = 0;
             }
-            stages.emission(world.spheres, world.lights, world.background, strategy, *found, *hits, size, *slots);
+            stages.emission(world.spheres, world.lights, world.background, strategy, *found, *hits, size, *slots, {});
             for (std::uint32_t i = 0; i < size; ++i) {
                 const double light_share = static_cast<double>(shared->r[i]) / static_cast<double>(whole->r[i]);
                 const Roots r = roots(origin_of(*found, i), direction_of(*found, i), world.centre(1), world.radius(1));

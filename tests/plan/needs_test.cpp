@@ -53,6 +53,29 @@ TEST(Needs, ASortWhereSurfacesScatterInMoreThanOneWay) {
     }
 }
 
+TEST(Needs, CausticsWhereASmoothSphereStandsApartFromALamp) {
+    const auto caustics = [](std::initializer_list<MaterialKind> kinds, double apart, auto change) {
+        Scene scene = world(kinds);
+        for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+            scene.primitives[i].centre = {apart * static_cast<double>(i), 0, 0};
+            scene.primitives[i].radius = 1;
+        }
+        scene.primitives.back().emission = glm::dvec3{1};
+        scene.settings.depth = 4;
+        change(scene.settings);
+        return needs_of(scene).caustics;
+    };
+    const auto as_is = [](RenderSettings&) {};
+    EXPECT_TRUE(caustics({specular, diffuse}, 3, as_is));
+    EXPECT_TRUE(caustics({dielectric, diffuse}, 3, as_is));
+    EXPECT_FALSE(caustics({glossy, translucent, diffuse}, 3, as_is)) << "no smooth sphere";
+    EXPECT_FALSE(caustics({specular, diffuse}, 2, as_is)) << "they touch";
+    EXPECT_FALSE(caustics({specular, diffuse}, 0.5, as_is)) << "one holds part of the other";
+    EXPECT_FALSE(caustics({specular, diffuse}, 3, [](RenderSettings& s) { s.caustics = false; }));
+    EXPECT_FALSE(caustics({specular, diffuse}, 3, [](RenderSettings& s) { s.transport = Transport::nee; }));
+    EXPECT_FALSE(caustics({specular, diffuse}, 3, [](RenderSettings& s) { s.integrator = Integrator::whitted; }));
+}
+
 TEST(Needs, ALensWhereTheApertureIsOpen) {
     for (const Integrator integrator : {Integrator::path_tracing, Integrator::whitted, Integrator::depth}) {
         Scene scene = world({diffuse});

@@ -37,6 +37,7 @@ std::vector<Variant> path_variants(const Scene& scene) {
                                      {"sobol", with(mis, cone, true, Estimator::sobol)}};
     if (isa_supported(Isa::sse2)) variants.push_back({"SSE2", with(mis, cone, true, stratified), Isa::sse2});
     if (has_area_lights(scene)) {
+        variants.push_back({"no caustics", [](RenderSettings& s) { s.caustics = false; }});
         variants.push_back({"mis, area", with(mis, area, true, uniform)});
         variants.push_back({"nee, cone", with(nee, cone, true, stratified)});
         variants.push_back({"nee, area, no roulette", with(nee, area, false, stratified)});

@@ -1,0 +1,31 @@
+// Which caustics are sampled on purpose: light of an area light over one smooth sphere, for path tracing.
+#pragma once
+
+#include <vector>
+
+#include "kernels/tables.hpp"
+#include "scene/scene.hpp"
+
+namespace orrery {
+
+/// One way of light, by the scene's primitives.
+struct PlannedCaustic {
+    std::uint32_t ball, lamp;  ///< primitives
+    std::uint32_t chords;
+    bool obstructed;
+    double share;  ///< of the samples over the ball
+    double rate;   ///< of these
+};
+
+/// Those worth their time, ball by ball, the strongest first. Decided by the scene's geometry and powers alone. A lamp
+/// that touches, holds or lies within a ball has none with it.
+std::vector<PlannedCaustic> plan_caustics(const Scene& scene);
+
+/// What an event at a vertex that samples them leaves of a path's throughput, about; in (0, 1].
+double carried_on(const Scene& scene);
+
+/// `caustic`'s steps: its turn at a number of impact parameters, by the ball's material.
+template <class Real>
+void put_steps(kernels::Caustic<Real>& caustic, double radius, const Material& ball);
+
+}  // namespace orrery

@@ -1,0 +1,154 @@
+// Light over one smooth sphere: sampled on purpose or met by chance, it is the same light.
+//
+// A screen hides the lamp from the floor, so that what a ball sends there is a large part of the image: between a tenth
+// and all of it, and an error of 1 % of that light shows.
+#include <gtest/gtest.h>
+
+#include "image/compare.hpp"
+#include "wavefront/agreement.hpp"
+
+namespace orrery::test {
+namespace {
+
+struct Case {
+    const char* name;
+    void (*build)(Scene&);
+};
+
+/// A floor under a screened lamp; no ball yet.
+Scene screened(const Material& floor) {
+    Scene scene = picture({0, 3.2, -6}, {0.6, 0, 0}, 34, 6);
+    add_sphere(scene, {0, -200, 0}, 200, floor);
+    add_sphere(scene, {-2.2, 1.4, 0}, 1.1, diffuse(dvec3{0}));  // the screen
+    add_lamp(scene, {-4.2, 2.2, 0}, 0.6, {30, 25, 20}, diffuse(dvec3{0}));
+    return scene;
+}
+
+const Material chalk = diffuse({0.8, 0.7, 0.6});
+
+const std::vector<Case> cases = {
+    {"Mirror",
+     [](Scene& s) {
+         add_sphere(s, {0.4, 2.6, 0.5}, 0.9, tinted(mirror(0), {0.9, 0.6, 0.3}));
+     }},
+    {"Glass",
+     [](Scene& s) {
+         add_sphere(s, {0.2, 2.7, 0.3}, 0.8, tinted(glass(0, 1.5), {0.9, 0.8, 0.7}, {0.6, 0.8, 1}));
+     }},
+    {"Diamond",
+     [](Scene& s) {
+         add_sphere(s, {0.2, 2.7, 0.3}, 0.8, glass(1, 2.4));
+     }},
+    {"Bubble",
+     [](Scene& s) {
+         add_sphere(s, {0.2, 2.7, 0.3}, 0.8, glass(1, 0.7));
+     }},
+    {"Invisible",
+     [](Scene& s) {
+         add_sphere(s, {0.2, 2.7, 0.3}, 0.8, glass(1, 1));
+     }},
+    {"OnTheFloor",
+     [](Scene& s) {
+         add_sphere(s, {1.2, 0.7, 0.3}, 0.7, glass(1, 1.5));
+     }},
+    {"CutByOthers",
+     [](Scene& s) {
+         add_sphere(s, {0.2, 2.7, 0.3}, 0.8, glass(1, 1.5));
+         add_sphere(s, {0.2, 2.4, 0.3}, 0.3, diffuse({0.2, 0.6, 0.9}));   // within it
+         add_sphere(s, {0.9, 3.1, 0.3}, 0.35, diffuse({0.9, 0.2, 0.2}));  // across its surface
+     }},
+    {"Nested",
+     [](Scene& s) {
+         add_sphere(s, {0.2, 2.7, 0.3}, 0.8, glass(1, 1.5));
+         add_sphere(s, {0.2, 2.7, 0.3}, 0.6, glass(1, 1 / 1.5));
+     }},
+    {"TwoAndTwoLamps",
+     [](Scene& s) {
+         add_sphere(s, {0.4, 2.6, 0.9}, 0.7, mirror(0.9));
+         add_sphere(s, {0.1, 2.2, -0.8}, 0.6, glass(1, 1.5));
+         add_lamp(s, {-3.4, 3.4, 1.5}, 0.4, {5, 15, 25});
+     }},
+    {"LampTouchesOneBall",
+     [](Scene& s) {
+         add_sphere(s, {-4.2, 3.3, 0}, 0.5, glass(1, 1.5));
+         add_sphere(s, {0.4, 2.6, 0.5}, 0.9, mirror(0.9));
+     }},
+    {"LampInGlass",
+     [](Scene& s) {
+         add_sphere(s, {-4.2, 2.2, 0}, 0.9, glass(1, 1.5));
+         add_sphere(s, {0.4, 2.6, 0.5}, 0.9, mirror(0.9));
+     }},
+    {"GlassHoldsTheEye",
+     [](Scene& s) {
+         add_sphere(s, {0, 0, 0}, 15, glass(1, 1.2));
+         add_sphere(s, {0.4, 2.6, 0.5}, 0.9, glass(1, 1.6));
+     }},
+    {"BallBelowTheHorizon",
+     [](Scene& s) {
+         add_sphere(s, {0.8, 0.1, 0.4}, 0.7, mirror(0.9));
+     }},
+    {"ALampThatIsTheBall",
+     [](Scene& s) {
+         add_lamp(s, {0.4, 2.6, 0.5}, 0.9, {2, 3, 4}, mirror(0.9));
+     }},
+};
+
+class Caustics : public testing::TestWithParam<Case> {};
+
+Variant variant(const char* name, bool caustics, Estimator estimator = Estimator::stratified, Isa isa = best_isa()) {
+    return {name, [=](RenderSettings& s) { s.caustics = caustics, s.estimator = estimator, s.roulette_from = 3; }, isa};
+}
+
+TEST_P(Caustics, SampledOrMetByChanceAreTheSameLight) {
+    Scene scene = screened(chalk);
+    GetParam().build(scene);
+    std::vector<Variant> variants = {variant("chance", false), variant("sampled", true),
+                                     variant("sobol", true, Estimator::sobol)};
+    if (isa_supported(Isa::sse2)) variants.push_back(variant("SSE2", true, Estimator::uniform, Isa::sse2));
+    expect_agreement_of(variants, scene, {.samples = 4096, .seeds = 4, .reference_samples = 2000});
+}
+
+INSTANTIATE_TEST_SUITE_P(Balls, Caustics, testing::ValuesIn(cases),
+                         [](const testing::TestParamInfo<Case>& of) { return of.param.name; });
+
+class CausticsOn : public testing::TestWithParam<double> {};
+
+TEST_P(CausticsOn, RoughSurfacesAsOnDiffuseOnes) {
+    const double roughness = GetParam();
+    Scene scene = screened(roughness < 0 ? glass(0.9, 1.4, -roughness) : glossy(0.8, roughness));
+    add_sphere(scene, {0.4, 2.6, 0.5}, 0.9, mirror(0.9));
+    add_sphere(scene, {0.2, 0.9, -1}, 0.5, glass(1, 1.5));
+    scene.primitives[2].radius = 1;  // the lamp: the reference finds it by chance, and often enough
+    expect_agreement_of({variant("chance", false), variant("sampled", true)}, scene,
+                        {.samples = 4096, .seeds = 4, .reference_samples = 2000});
+}
+
+INSTANTIATE_TEST_SUITE_P(Floors, CausticsOn, testing::Values(0.15, 0.7, -0.3));  // negative: translucent
+
+TEST(CausticsDepth, CountsTheEventsAtTheBall) {
+    for (std::uint32_t depth = 0; depth <= 4; ++depth) {
+        Scene scene = screened(chalk);
+        add_sphere(scene, {0.2, 2.7, 0.3}, 0.8, glass(1, 1.5));
+        scene.settings.depth = depth;
+        expect_agreement_of({variant("chance", false), variant("sampled", true)}, scene,
+                            {.samples = 1024, .seeds = 4, .reference_samples = 1000});
+    }
+}
+
+TEST(CausticsNoise, FallsByMuch) {
+    // The lamp behind glass of bench/TRADEOFF.md, in small: by chance a path in thousands finds it.
+    Scene scene = picture({0.6, 2.6, -7.5}, {0, 0.6, 0}, 38, 6);
+    add_sphere(scene, {0, -200, 0}, 200, chalk);
+    add_sphere(scene, {0, 1, 0}, 1, glass(1, 1.5));
+    add_lamp(scene, {0.4, 2.2, 2.4}, 0.12, {900, 820, 700}, diffuse(dvec3{0}));
+    const auto image = [&](bool caustics, std::uint32_t samples, std::uint32_t seed) {
+        scene.settings.caustics = caustics, scene.settings.samples = samples, scene.settings.seed = seed;
+        return render(Plan(scene), {}).image;
+    };
+    const Image truth = image(true, 16384, 1);
+    const auto error = [&](bool caustics) { return compare(image(caustics, 1024, 2), truth).mrse; };
+    EXPECT_LT(error(true), error(false) / 20);
+}
+
+}  // namespace
+}  // namespace orrery::test
