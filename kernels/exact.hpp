@@ -104,28 +104,7 @@ struct Obstruction {
     Words<V> by;      ///< that sphere
 };
 
-/// Where a sphere's cap overlaps the light's.
-template <class V>
-struct Overlap {
-    Mask<V> some;
-    Mask<V> all;  ///< it holds the light's cap
-};
-template <class V>
-ORRERY_INLINE Overlap<V> overlap(const LightView<V>& light, const Vec3Of<V>& to, const Floats<V>& radius) {
-    using F = Floats<V>;
-    // Along the axis and square of the distance from it. With the angle g between the axes and half angles s and t:
-    // cos g > cos(s + t) and cos g >= cos(t - s), multiplied by the distance, squared, and with the squares of the
-    // distance taken out of both sides, which would cancel.
-    const F ahead = dot(to, light.axis);
-    const Vec3<F> across = back_along(to, ahead, light.axis);
-    const F apart = neg_mul_add(light.sine, light.sine, F(1)) * dot(across, across);
-    const F widened = radius * light.sine, shift = ahead * light.sine;
-    const F sum = radius + shift, difference = radius - shift;
-    return {ahead + widened > F(0) && sum * sum > apart,
-            min(ahead - widened, difference) > F(0) && difference * difference >= apart};
-}
-
-/// Adds what sphere k does to the view of the light. `within`: the vertex scatters into it or lies inside.
+/// Adds what sphere k does to the view of the light.
 template <class V>
 ORRERY_INLINE void obstruct(const Spheres<V>& spheres, const Occluders<RealOf<V>>& occluders, std::uint32_t k,
                             const LightView<V>& light, const ShoneOn<V>& vertex, Obstruction<V>& all) {
@@ -134,25 +113,36 @@ ORRERY_INLINE void obstruct(const Spheres<V>& spheres, const Occluders<RealOf<V>
     const auto sphere = broadcast_sphere<V>(spheres, k);
     const Vec3<F> to = sphere.centre - vertex.position;
     const auto own = words_equal(vertex.id, U(k));
+    // The vertex scatters into it or lies inside.
     const auto within = (own && vertex.inward) || (!own && power_of_point(to, sphere.radius2) <= F(0));
     const std::uint64_t bit = std::uint64_t{1} << k;
     if ((occluders.around & bit) != 0) {
         all.covered = all.covered || !within;
         return;
     }
-    const auto seen = overlap<V>(light, to, sphere.radius);
+    // Whether its cap overlaps the light's, and holds it: along the axis and square of the distance from it. With the
+    // angle g between the axes and half angles s and t, cos g > cos(s + t) and cos g >= cos(t - s), multiplied by the
+    // distance, squared, and with the squares of the distance taken out of both sides, which would cancel.
+    const F ahead = dot(to, light.axis);
+    const Vec3<F> across = back_along(to, ahead, light.axis);
+    const F apart = neg_mul_add(light.sine, light.sine, F(1)) * dot(across, across);
+    const F widened = sphere.radius * light.sine, shift = ahead * light.sine, sum = sphere.radius + shift;
+    auto overlaps = !own && ahead + widened > F(0) && sum * sum > apart;
     if ((occluders.crossing & bit) != 0) {
-        all.unknown = all.unknown || within || (!own && seen.some);
+        all.unknown = all.unknown || within || overlaps;
         return;
     }
     const auto& towards = occluders.towards[k];
     const F before = light.distance * dot(light.axis, Vec3<F>{F(towards.x), F(towards.y), F(towards.z)});
-    const auto hides = !own && !within && before > F(occluders.middle[k]);
-    const auto part = hides && seen.some;
-    all.covered = all.covered || within || (hides && seen.all);
-    all.unknown = all.unknown || (part && all.partly);
-    all.by = choose(part, U(k), all.by);
-    all.partly = all.partly || part;
+    overlaps = overlaps && before > F(occluders.middle[k]);
+    // Most spheres are in nobody's way.
+    if (!any(within || overlaps)) return;
+    const F difference = sphere.radius - shift;
+    const auto holds = overlaps && min(ahead - widened, difference) > F(0) && difference * difference >= apart;
+    all.covered = all.covered || within || holds;
+    all.unknown = all.unknown || (overlaps && all.partly);
+    all.by = choose(overlaps, U(k), all.by);
+    all.partly = all.partly || overlaps;
 }
 
 /// In place of a sphere: what is below the horizon takes a part of the light away.
