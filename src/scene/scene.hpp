@@ -72,7 +72,7 @@ struct RenderSettings {
     std::filesystem::path output;  ///< already resolved against the scene file's folder; may be empty
     Estimator estimator = Estimator::stratified;
     Transport transport = Transport::mis;
-    LightSampling light_sampling = LightSampling::cone;
+    LightSampling light_sampling = LightSampling::exact;
     LightChoice light_choice = LightChoice::all;
     bool caustics = true;  ///< light over one smooth sphere is sampled
     bool roulette = true;

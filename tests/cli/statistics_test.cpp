@@ -16,9 +16,9 @@ using Json = nlohmann::json;
 TEST(Statistics, HaveEveryFieldWithASaneValue) {
     const TemporaryFolder folder;
     const std::string scene = scene_file("tests/diffuse_area.json");
-    const Outcome outcome = orrery(
-        {"render", scene, "-o", "x.ppm", "--stats", "s.json", "--threads", "2", "--seed", "9", "--size", "40x30"},
-        {.folder = folder.path()});
+    const Outcome outcome = orrery({"render", scene, "-o", "x.ppm", "--stats", "s.json", "--threads", "2", "--seed",
+                                    "9", "--size", "40x30", "--light-sampling", "cone"},
+                                   {.folder = folder.path()});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
     EXPECT_EQ(outcome.output, "x.ppm\n");
     const Json s = Json::parse(load(folder / "s.json"));
@@ -51,9 +51,9 @@ TEST(Statistics, HaveEveryFieldWithASaneValue) {
 
 TEST(Statistics, TimeTheFiveStages) {
     const TemporaryFolder folder;
-    const Outcome outcome =
-        orrery({"render", scene_file("tests/diffuse_area.json"), "-o", "x.ppm", "--threads", "1", "--stats", "-"},
-               {.folder = folder.path()});
+    const Outcome outcome = orrery({"render", scene_file("tests/diffuse_area.json"), "-o", "x.ppm", "--threads", "1",
+                                    "--stats", "-", "--light-sampling", "cone"},
+                                   {.folder = folder.path()});
     const auto s = nlohmann::ordered_json::parse(outcome.output);
     std::vector<std::string> names;
     double sum = 0;

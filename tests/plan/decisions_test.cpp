@@ -96,6 +96,9 @@ TEST(Decisions, CountWhatTheySpeakOf) {
     EXPECT_EQ(decision(all, "shade: emission").reason, "2 emissive spheres");
     EXPECT_EQ(decision(all, "shadow: point lights").reason, "1 of them, from diffuse, glossy surfaces");
     EXPECT_EQ(decision(all, "shadow: area lights").reason,
+              "2 of them, from diffuse, glossy surfaces, in place of scattering from outside them");
+    scene.settings.light_sampling = LightSampling::cone;
+    EXPECT_EQ(decision(Plan(scene).decisions(), "shadow: area lights").reason,
               "2 of them, from diffuse, glossy surfaces, weighed against scattering");
 }
 

@@ -88,7 +88,7 @@ TEST(SmallScenes, RendererOptionsOverrideDefaults) {
     const RenderSettings defaults = load("tests/diffuse_point").settings;
     EXPECT_EQ(defaults.estimator, Estimator::stratified);
     EXPECT_EQ(defaults.transport, Transport::mis);
-    EXPECT_EQ(defaults.light_sampling, LightSampling::cone);
+    EXPECT_EQ(defaults.light_sampling, LightSampling::exact);
     EXPECT_TRUE(defaults.roulette);
     EXPECT_FALSE(defaults.tonemap.has_value());
     EXPECT_EQ(defaults.seed, 0u);

@@ -59,6 +59,7 @@ TEST(Rays, OfPathsAreCountedWhereTheyAreCast) {
 TEST(Rays, TowardsAreaLightsAreThoseOfTheTransport) {
     Scene scene = filled(diffuse(dvec3{0.5}), 1);
     add_lamp(scene, overhead, 0.5, dvec3{1}, diffuse(dvec3{0}));
+    scene.settings.light_sampling = LightSampling::cone;
     scene.settings.transport = Transport::nee;
     expect_rays(scene, paths, paths, "nee: the last diffuse ray is not cast");
     scene.settings.transport = Transport::mis;
@@ -75,6 +76,27 @@ TEST(Rays, TowardsAreaLightsAreThoseOfTheTransport) {
     expect_rays(scene, 2 * paths, 0, "a mirror samples no light");
 }
 
+// What is known needs no ray, and what the last one runs into counts for nothing.
+TEST(Rays, AreFewWhereLightIsKnownInClosedForm) {
+    Scene scene = filled(diffuse(dvec3{0.5}), 1);
+    add_lamp(scene, overhead, 0.5, dvec3{1}, diffuse(dvec3{0}));
+    scene.settings.light_sampling = LightSampling::exact;
+    for (const Transport transport : {Transport::nee, Transport::mis}) {
+        scene.settings.transport = transport;
+        expect_rays(scene, paths, 0, "a lamp in plain sight");
+    }
+    scene.materials[0] = glossy(0.5, 0.2);
+    const RenderStats rough = render(scene).stats;
+    EXPECT_EQ(rough.closest_rays, paths) << "mis: light samples alone count, behind rough surfaces too";
+    EXPECT_LT(rough.shadow_rays, paths) << "and only of the lobe's own directions";
+    scene.settings.transport = Transport::nee;
+    expect_rays(scene, 2 * paths, 0, "glossy, nee: the perturbed ray finds the light");
+    scene.settings.transport = Transport::mis;
+    scene.materials[0] = diffuse(dvec3{0.5});
+    scene.background = dvec3{1};
+    expect_rays(scene, 2 * paths, 0, "a background the last rays may run into");
+}
+
 // Half of a light's surface turns away from any point outside it; no ray is cast towards that half.
 TEST(Rays, AreNotCastTowardsTheFarSideOfALight) {
     Scene scene = filled(diffuse(dvec3{0.5}), 1);
@@ -89,6 +111,7 @@ TEST(Rays, AreNotCastTowardsTheFarSideOfALight) {
 TEST(Rays, OfWhittedTreesAreTheirNodes) {
     Scene scene = filled(diffuse(dvec3{0.5}), 3);
     scene.settings.integrator = Integrator::whitted;
+    scene.settings.light_sampling = LightSampling::cone;
     add_point_light(scene, overhead, dvec3{1});
     add_lamp(scene, overhead, 0.5, dvec3{1}, diffuse(dvec3{0}));
     expect_rays(scene, paths, 2 * paths, "a diffuse surface ends the ray");

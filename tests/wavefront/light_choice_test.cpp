@@ -118,6 +118,7 @@ TEST(LightChoice, CastsOneShadowRayAtAVertex) {
     for (int i = 0; i < 3; ++i) add_lamp(scene, {2.0 * i - 2, 6, 0}, 0.5, dvec3{1.0 + i});
     for (int i = 0; i < 2; ++i) add_point_light(scene, {0, 5, 3.0 * i}, dvec3{1.0 + i});
     scene.settings.samples = 16;
+    scene.settings.light_sampling = LightSampling::cone;
     const std::uint64_t vertices = 256 * 16;
     EXPECT_EQ(render(scene).stats.shadow_rays, 5 * vertices);
     for (const LightChoice choice : {LightChoice::uniform, LightChoice::power}) {

@@ -182,7 +182,7 @@ TEST(Passes, SpendSamplesWhereTheErrorIs) {
 TEST(Passes, TakeTheSamplesOfOneGo) {
     Scene scene = noisy(3, side);
     scene.settings.estimator = Estimator::uniform;
-    const RenderResult result = render_to(scene, {.error = 0.1, .adaptive = false});
+    const RenderResult result = render_to(scene, {.error = 0.05, .adaptive = false});
     EXPECT_GT(result.stats.passes, 3u);
     scene.settings.samples = result.stats.most_samples;
     EXPECT_EQ(image_of(scene).pixels, result.image.pixels);
