@@ -47,8 +47,8 @@ bool obstructed(const Scene& scene, std::uint32_t ball) {
 }  // namespace
 
 std::vector<PlannedCaustic> plan_caustics(const Scene& scene) {
-    constexpr std::size_t most_balls = 16, most_of_ball = 12;
-    constexpr double kappa = 3;
+    constexpr std::size_t most_balls = 4, most_of_ball = 12;
+    constexpr double kappa = 2;
     // How much of the light on a ball comes off it by so many chords, about.
     constexpr double by_chords[] = {0.2, 1, 0.1};
     struct Ball {
