@@ -15,8 +15,15 @@ namespace {
 
 /// OpenEXRCore takes memory from malloc, which nobody watches, unless told where else.
 const bool exr_is_watched = [] {
-    exr_set_default_memory_routines([](std::size_t size) { return ::operator new(size, std::nothrow); },
-                                    [](void* memory) { ::operator delete(memory); });
+    exr_set_default_memory_routines(
+        [](std::size_t size) -> void* {
+            try {
+                return ::operator new(size);
+            } catch (const std::bad_alloc&) {
+                return nullptr;
+            }
+        },
+        [](void* memory) { ::operator delete(memory); });
     return true;
 }();
 
