@@ -126,17 +126,21 @@ TEST_F(Tradeoff, PathsCutShortAreReportedAsBias) {
 }
 
 TEST_F(Tradeoff, TheReferenceKnowsItsError) {
-    // Another of other seeds and as many samples differs by the errors of both.
-    const Reference coarse = make_reference(subject->scene, subject->usual, std::uint32_t{6});
-    double sum = 0;
-    for (std::size_t i = 0; i < coarse.image.pixels.size(); ++i) {
-        for (float Rgb::*channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
-            const double t = subject->reference.image.pixels[i].*channel;
-            sum += std::pow(coarse.image.pixels[i].*channel - t, 2) / (t * t + 0.01) / 3;
+    // Others of other seeds and fewer samples differ by their errors. Few pixels carry these, so that a single ratio
+    // scatters by 0.13, and the mean of six by 0.05.
+    double ratios = 0;
+    for (std::uint32_t strata = 3; strata <= 8; ++strata) {
+        const Reference coarse = make_reference(subject->scene, subject->usual, strata);
+        double sum = 0;
+        for (std::size_t i = 0; i < coarse.image.pixels.size(); ++i) {
+            for (float Rgb::*channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+                const double t = subject->reference.image.pixels[i].*channel;
+                sum += std::pow(coarse.image.pixels[i].*channel - t, 2) / (t * t + 0.01) / 3;
+            }
         }
+        ratios += coarse.mrse / (sum / static_cast<double>(coarse.image.pixels.size()));
     }
-    const double mrse = sum / static_cast<double>(coarse.image.pixels.size());
-    EXPECT_NEAR(coarse.mrse / mrse, 1, 0.3);
+    EXPECT_NEAR(ratios / 6, 1, 0.3);
 }
 
 }  // namespace
