@@ -10,6 +10,7 @@
 #pragma once
 
 #include "kernels/sampling.hpp"
+#include "kernels/sphere.hpp"
 #include "kernels/tables.hpp"
 
 namespace orrery::kernels {
@@ -45,7 +46,7 @@ ORRERY_INLINE BallFrame<V> ball_frame(const Caustic<RealOf<V>>& caustic, const V
             inverse,
             on_axis,
             max(across, least),
-            mul_add(to.x, to.x, mul_add(to.y, to.y, mul_sub(to.z, to.z, F(caustic.radius2)))) > F(0)};
+            power_of_point(to, F(caustic.radius2)) > F(0)};
 }
 
 /// T, as its sine and cosine.
@@ -218,11 +219,11 @@ ORRERY_INLINE Floats<V> caustic_probability(const Caustic<RealOf<V>>& caustic, c
     using F = Floats<V>;
     using U = Words<V>;
     const Vec3<F> to = Vec3<F>{F(caustic.cx), F(caustic.cy), F(caustic.cz)} - p;
-    const F power = mul_add(to.x, to.x, mul_add(to.y, to.y, mul_sub(to.z, to.z, F(caustic.radius2))));
     const F inverse = F(1) / root(dot(to, to));
     const F sine = F(caustic.radius) * inverse, cosine = dot(to, normal) * inverse;
     const F q = rate * sine * sine * max(cosine, sine * F(0.5f));
-    const auto above = power > F(0) && cosine > F(0) - sine && !words_equal(sphere, U(caustic.ball));
+    const auto above =
+        power_of_point(to, F(caustic.radius2)) > F(0) && cosine > F(0) - sine && !words_equal(sphere, U(caustic.ball));
     return choose(above, min(q, F(1)), F(0));
 }
 

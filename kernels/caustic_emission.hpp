@@ -26,9 +26,10 @@ void caustic_emission(const CausticContext<RealOf<V>>& context, std::uint32_t co
         const auto at = [&](const RealOf<V>* column) { return gather<F>(column, slot); };
         const Vec3<F> p{at(chains.x), at(chains.y), at(chains.z)},
             direction{at(chains.dx), at(chains.dy), at(chains.dz)};
-        const auto v = caustic_vertex<V>(spheres, p, choose(live, gather<U>(chains.departed, slot), U(0u)));
-        const U material = lookup<U>(spheres.surface, v.sphere, spheres.count);
-        const auto rough = !words_equal(material >> surface_material_bits & U(surface_kind_mask), U(0u));
+        const U departed = choose(live, gather<U>(chains.departed, slot), U(0u)), sphere = departed & U(no_sphere);
+        const auto normal = departed_normal<V>(spheres, p, departed);
+        const U surface = lookup<U>(spheres.surface, sphere, spheres.count);
+        const auto rough = !words_equal(surface >> surface_material_bits & U(surface_kind_mask), U(0u));
         F weight(1);
         for (std::uint32_t g = 0; g < context.caustics.groups; ++g) {
             const auto& group = context.caustics.group[g];
@@ -40,7 +41,7 @@ void caustic_emission(const CausticContext<RealOf<V>>& context, std::uint32_t co
                 if (!any(of_it) || context.bounce < caustic->chords + 2) continue;
                 const auto scale = group.rate * caustic_scale(context.caustics, context.bounce - caustic->chords - 2);
                 const F rate = choose(rough, F(rough_scale<Response::glossy>(scale)), F(scale));
-                const F q = caustic_probability<V>(*caustic, rate, v.position, v.normal, v.sphere) * F(caustic->share);
+                const F q = caustic_probability<V>(*caustic, rate, p, normal, sphere) * F(caustic->share);
                 const F density = q * caustic_pdf<V>(*caustic, ball_frame<V>(*caustic, p), direction);
                 weight = choose(of_it && q > F(0), scattering_weight<V>(at(chains.pdf), density), weight);
             }

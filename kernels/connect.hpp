@@ -27,30 +27,34 @@ struct Lobe {
     Vec3<F> direction;  ///< unit length
     F dot_n, beta;      ///< cosine with the normal, >= 0, and roughness
 };
+/// Of the vertices' `sphere` and `normal`, about `direction`.
+template <class V, class Context>
+ORRERY_INLINE Lobe<Floats<V>> lobe_about(const Context& context, const Words<V>& sphere, const Vec3Of<V>& normal,
+                                         const Vec3Of<V>& direction) {
+    using F = Floats<V>;
+    using U = Words<V>;
+    const U material = lookup<U>(context.spheres.surface, sphere, context.spheres.count) & U(surface_material_mask);
+    const F beta = lookup<F>(context.materials.roughness, material, context.materials.count);
+    return {direction, max(dot(direction, normal), F(0)), beta};
+}
 template <class V>
 ORRERY_INLINE Lobe<Floats<V>> lobe_of(const ConnectContext<RealOf<V>>& context, const Lobes<V>& lobes,
                                       const LitVertex<V>& vertex) {
-    using F = Floats<V>;
-    using U = Words<V>;
-    const U material =
-        lookup<U>(context.spheres.surface, vertex.sphere, context.spheres.count) & U(surface_material_mask);
-    const F beta = lookup<F>(context.materials.roughness, material, context.materials.count);
     const std::uint32_t i = vertex.i;
-    const auto lobe = load3<V>(lobes.x + i, lobes.y + i, lobes.z + i);
-    return {lobe, max(dot(lobe, vertex.normal), F(0)), beta};
+    return lobe_about<V>(context, vertex.sphere, vertex.normal, load3<V>(lobes.x + i, lobes.y + i, lobes.z + i));
 }
 
-/// Scattering density per solid angle towards `direction`; the cosine is part of it. 0 below the horizon.
-template <class V, Response response>
-ORRERY_INLINE Floats<V> response_pdf(const ConnectContext<RealOf<V>>& context, const Lobes<V>& lobes,
-                                     const LitVertex<V>& vertex, const Vec3Of<V>& direction) {
+/// Scattering density per solid angle towards `direction`; the cosine is part of it. 0 below the horizon. `lobe()` is
+/// asked at rough vertices only.
+template <class V, Response response, class GetLobe>
+ORRERY_INLINE Floats<V> response_pdf(const Vec3Of<V>& normal, const Vec3Of<V>& direction, const GetLobe& lobe) {
     using F = Floats<V>;
-    const F cosine = dot(vertex.normal, direction);
+    const F cosine = dot(normal, direction);
     if constexpr (response == Response::diffuse) {
         return max(cosine, F(0)) * F(static_cast<RealOf<V>>(std::numbers::inv_pi));
     } else {
-        const auto [lobe, lobe_dot_n, beta] = lobe_of<V>(context, lobes, vertex);
-        return glossy_pdf<V>(lobe, lobe_dot_n, beta, direction, cosine);
+        const auto [axis, dot_n, beta] = lobe();
+        return glossy_pdf<V>(axis, dot_n, beta, direction, cosine);
     }
 }
 
@@ -206,7 +210,8 @@ ORRERY_INLINE Arrival<V> sample_light(const ConnectContext<RealOf<V>>& context, 
         }
     }
     if constexpr (aim != Aim::sphere || !by_lobe) {
-        const F pdf = response_pdf<V, response>(context, lobes, vertex, sample.direction);
+        const F pdf = response_pdf<V, response>(
+            vertex.normal, sample.direction, [&]() ORRERY_INLINE_LAMBDA { return lobe_of<V>(context, lobes, vertex); });
         ratio = pdf * sample.inverse_pdf;
         if constexpr (aim == Aim::point) ratio = pdf * sample.inverse_distance * sample.inverse_distance;
     }
@@ -247,9 +252,7 @@ ORRERY_INLINE std::uint32_t connect_run(const ConnectContext<RealOf<V>>& context
         const U id = departed & U(no_sphere);
         const auto inward = !words_equal(departed, id);
         const auto p = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
-        const auto centre = lookup3<V>(spheres.cx, spheres.cy, spheres.cz, id, spheres.count);
-        const Vec3<F> outward = (p - centre) * lookup<F>(spheres.inverse_radius, id, spheres.count);
-        const Vec3<F> normal = choose(inward, outward * F(-1), outward);
+        const auto normal = departed_normal<V>(spheres, p, departed);
         const auto sample = sample_light<V, response, aim, strategy>(context, light, rays, lobes,
                                                                      LitVertex<V>{i, p, normal, id, inward}, key);
         const auto throughput = load3<V>(rays.tr + i, rays.tg + i, rays.tb + i);

@@ -78,11 +78,8 @@ ORRERY_INLINE ShoneOn<V> shone_on(const Spheres<V>& spheres, const Rays<V>& rays
     using U = Words<V>;
     const U departed = choose(live, read(rays.departed), U(0u));
     const U id = departed & U(no_sphere);
-    const auto inward = !words_equal(departed, id);
     const Vec3<F> position{read(rays.ox), read(rays.oy), read(rays.oz)};
-    const auto centre = lookup3<V>(spheres.cx, spheres.cy, spheres.cz, id, spheres.count);
-    const Vec3<F> outward = (position - centre) * lookup<F>(spheres.inverse_radius, id, spheres.count);
-    return {position, choose(inward, outward * F(-1), outward), id, inward};
+    return {position, departed_normal<V>(spheres, position, departed), id, !words_equal(departed, id)};
 }
 
 template <class V>

@@ -148,6 +148,7 @@ inline constexpr std::uint32_t caustic_steps = 24;
 template <class Real>
 struct Caustic {
     std::uint32_t ball, light, lamp;  ///< sphere, light, and the light's sphere
+    std::uint32_t group;              ///< that of the ball
     std::uint32_t chords;             ///< <= most_chords
     bool obstructed;                  ///< some other surface may cut the chords
     Real cx, cy, cz, radius, radius2;

@@ -40,6 +40,18 @@ ORRERY_INLINE Vertex<V> vertex_at(const Spheres<V>& spheres, const Vec3Of<V>& or
             lookup<U>(spheres.surface, id, spheres.count) & U(surface_material_mask)};
 }
 
+/// Where rays leave from: unit normal at `position`, on the side they leave to; `departed` as in RayQueue.
+template <class V>
+ORRERY_INLINE Vec3Of<V> departed_normal(const Spheres<V>& spheres, const Vec3Of<V>& position,
+                                        const Words<V>& departed) {
+    using F = Floats<V>;
+    using U = Words<V>;
+    const U id = departed & U(no_sphere);
+    const auto centre = lookup3<V>(spheres.cx, spheres.cy, spheres.cz, id, spheres.count);
+    const Vec3<F> outward = (position - centre) * lookup<F>(spheres.inverse_radius, id, spheres.count);
+    return choose(words_equal(departed, id), outward, outward * F(-1));
+}
+
 /// A vector of a run's rays where they arrive.
 template <class V>
 struct Arriving {

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "kernels/caustic_sample.hpp"
 #include "plan/tables.hpp"
 
 namespace orrery {
@@ -22,17 +23,6 @@ bool smooth(const Scene& scene, const Primitive& p) {
     return kernels::traits_of(scattering(scene, p)).response == kernels::Response::none;
 }
 
-/// Unpolarised reflectance at the angle whose sine outside is `sine`.
-double fresnel(double sine, double eta) {
-    const double cosine = std::sqrt(std::max(0.0, 1 - sine * sine));
-    const double within = sine / eta;
-    if (within >= 1) return 1;
-    const double cosine_t = std::sqrt(1 - within * within);
-    const double rs = (cosine - eta * cosine_t) / (cosine + eta * cosine_t);
-    const double rp = (eta * cosine - cosine_t) / (eta * cosine + cosine_t);
-    return (rs * rs + rp * rp) / 2;
-}
-
 bool obstructed(const Scene& scene, std::uint32_t ball) {
     const Primitive& b = scene.primitives[ball];
     for (std::uint32_t i = 0; i < scene.primitives.size(); ++i) {
@@ -46,46 +36,79 @@ bool obstructed(const Scene& scene, std::uint32_t ball) {
 
 }  // namespace
 
-std::vector<PlannedCaustic> plan_caustics(const Scene& scene) {
-    constexpr std::size_t most_balls = 4, most_of_ball = 12;
-    constexpr double kappa = 2;
-    // How much of the light on a ball comes off it by so many chords, about.
-    constexpr double by_chords[] = {0.2, 1, 0.1};
-    struct Ball {
-        double strength;
-        std::vector<PlannedCaustic> ways;
-    };
-    std::vector<Ball> balls;
-    for (std::uint32_t b = 0; b < scene.primitives.size(); ++b) {
-        const Primitive& ball = scene.primitives[b];
-        if (!smooth(scene, ball)) continue;
-        const bool mirror = scattering(scene, ball) == Scattering::specular;
-        Ball found{0, {}};
-        double all = 0;
-        const bool cut = !mirror && obstructed(scene, b);
-        for (std::uint32_t l = 0; l < scene.primitives.size(); ++l) {
-            const Primitive& lamp = scene.primitives[l];
-            if (l == b || !emits(lamp)) continue;
-            const double apart = glm::length(lamp.centre - ball.centre), sine = lamp.radius / apart;
-            const double light = brightest(*lamp.emission) * sine * sine;
-            all += light;
-            if (apart <= (lamp.radius + ball.radius) * (1 + 1e-5)) continue;
-            for (std::uint32_t chords = 0; chords <= (mirror ? 0 : kernels::most_chords); ++chords)
-                found.ways.push_back({b, l, chords, cut && chords > 0, (mirror ? 1 : by_chords[chords]) * light, 0});
-        }
-        std::ranges::stable_sort(found.ways, std::ranges::greater{}, &PlannedCaustic::share);
-        if (found.ways.size() > most_of_ball) found.ways.resize(most_of_ball);
-        double sum = 0;
-        for (const PlannedCaustic& way : found.ways) sum += way.share;
-        if (sum <= 0) continue;
-        for (PlannedCaustic& way : found.ways) way.rate = kappa * sum / all, way.share /= sum;
-        found.strength = sum * ball.radius * ball.radius;
-        balls.push_back(std::move(found));
-    }
-    std::ranges::stable_sort(balls, std::ranges::greater{}, &Ball::strength);
-    if (balls.size() > most_balls) balls.resize(most_balls);
+namespace {
+
+/// Lights, and balls, that are looked at: plans of many spheres take time in proportion to their number.
+constexpr std::size_t most_lamps = 64, most_balls = 4, most_of_ball = 12;
+/// Samples of a ball from next to it, about, where all light on it is that of its caustics.
+constexpr double often = 2;
+/// How much of the light on a ball of glass comes off it by so many chords, about.
+constexpr double by_chords[] = {0.2, 1, 0.1};
+
+using Indices = std::vector<std::uint32_t>;
+
+/// Those of `of` for which `value` is greatest, the greatest first.
+template <class Value>
+Indices greatest(Indices of, std::size_t count, const Value& value) {
+    std::ranges::stable_sort(of, std::ranges::greater{}, value);
+    if (of.size() > count) of.resize(count);
+    return of;
+}
+
+/// Indices of the primitives for which `holds`.
+template <class Holds>
+Indices primitives_where(const Scene& scene, const Holds& holds) {
+    Indices list;
+    for (std::uint32_t i = 0; i < scene.primitives.size(); ++i)
+        if (holds(scene.primitives[i])) list.push_back(i);
+    return list;
+}
+
+/// The lamp's light on the ball, in no unit.
+double light_on(const Primitive& ball, const Primitive& lamp) {
+    const double sine = lamp.radius / glm::length(lamp.centre - ball.centre);
+    return &ball == &lamp ? 0 : brightest(*lamp.emission) * sine * sine;
+}
+
+std::vector<PlannedCaustic> caustics_over(const Scene& scene, std::uint32_t ball, const Indices& lamps) {
+    const Primitive& b = scene.primitives[ball];
+    const bool mirror = scattering(scene, b) == Scattering::specular;
+    const bool cut = !mirror && obstructed(scene, ball);
     std::vector<PlannedCaustic> list;
-    for (const Ball& ball : balls) list.insert(list.end(), ball.ways.begin(), ball.ways.end());
+    double light_in_all = 0, sampled = 0;
+    for (const std::uint32_t l : lamps) {
+        const Primitive& lamp = scene.primitives[l];
+        const double light = light_on(b, lamp);
+        light_in_all += light;
+        if (l == ball || glm::length(lamp.centre - b.centre) <= (lamp.radius + b.radius) * (1 + 1e-5)) continue;
+        for (std::uint32_t chords = 0; chords <= (mirror ? 0 : kernels::most_chords); ++chords)
+            list.push_back({ball, l, chords, cut && chords > 0, (mirror ? 1 : by_chords[chords]) * light, 0});
+    }
+    std::ranges::stable_sort(list, std::ranges::greater{}, &PlannedCaustic::share);
+    if (list.size() > most_of_ball) list.resize(most_of_ball);
+    for (const PlannedCaustic& caustic : list) sampled += caustic.share;
+    if (sampled <= 0) return {};
+    for (PlannedCaustic& caustic : list) caustic.rate = often * sampled / light_in_all, caustic.share /= sampled;
+    return list;
+}
+
+}  // namespace
+
+std::vector<PlannedCaustic> plan_caustics(const Scene& scene) {
+    const auto& p = scene.primitives;
+    const Indices lamps = greatest(primitives_where(scene, emits), most_lamps, [&](std::uint32_t i) {
+        return brightest(*p[i].emission) * p[i].radius * p[i].radius;
+    });
+    Indices balls = primitives_where(scene, [&](const Primitive& ball) { return smooth(scene, ball); });
+    std::vector<double> strength(p.size());
+    for (const std::uint32_t b : balls)
+        for (const std::uint32_t l : lamps) strength[b] += light_on(p[b], p[l]) * p[b].radius * p[b].radius;
+    balls = greatest(std::move(balls), most_balls, [&](std::uint32_t b) { return strength[b]; });
+    std::vector<PlannedCaustic> list;
+    for (const std::uint32_t b : balls) {
+        const auto over = caustics_over(scene, b, lamps);
+        list.insert(list.end(), over.begin(), over.end());
+    }
     return list;
 }
 
@@ -103,13 +126,13 @@ double carried_on(const Scene& scene) {
 template <class Real>
 void put_steps(kernels::Caustic<Real>& caustic, double radius, const Material& ball) {
     const double greatest = caustic.chords > 0 ? std::min(1.0, ball.eta) : 1;
+    kernels::Caustic<double> alike{};
+    alike.chords = caustic.chords, alike.mirror = caustic.mirror, alike.eta = ball.eta, alike.radius = radius;
     for (std::uint32_t i = 0; i <= kernels::caustic_steps; ++i) {
         const double sine = greatest * std::sin(i * std::numbers::pi / (2 * kernels::caustic_steps));
         const double within = caustic.chords > 0 ? std::asin(std::min(1.0, sine / ball.eta)) : 0;
         const double turn = 2 * std::asin(sine) + caustic.chords * (std::numbers::pi - 2 * within);
-        const double reflected = caustic.mirror ? 1 : fresnel(sine, ball.eta);
-        const double through = (1 - reflected) * (1 - reflected);
-        const double share = caustic.chords == 0 ? reflected : caustic.chords == 1 ? through : through * reflected;
+        const double share = kernels::share_of_events<kernels::ScalarLanes<double>>(alike, radius * sine);
         caustic.step[i] = {static_cast<Real>(radius * sine), static_cast<Real>(std::sin(turn)),
                            static_cast<Real>(std::cos(turn)), static_cast<Real>(share)};
     }

@@ -213,6 +213,7 @@ void Tables<Real>::sample_caustics(const Scene& scene, const LengthUnit& in, con
         if (caustics_.empty() || caustics_.back().ball != c.ball)
             caustic_groups_.push_back({static_cast<std::uint32_t>(caustics_.size()), 0, f(p.rate)});
         ++caustic_groups_.back().count;
+        c.group = static_cast<std::uint32_t>(caustic_groups_.size() - 1);
         caustics_.push_back(c);
     }
     const auto count = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };

@@ -84,10 +84,10 @@ private:
     /// Makes a call, and charges time and traffic to its place in the profile.
     template <class Make>
     kernels::Runs call(const StageCall& what, const Make& make);
-    /// `lights`: a member of the plan's tables, which recorded calls refer to.
     void caustic(kernels::Response response, std::uint32_t which, std::uint32_t picked, std::uint32_t bounce);
     /// Shadow rays -> radiance.
     void shadow(std::uint32_t rays, std::uint32_t target, std::uint32_t bounce);
+    /// `lights`: a member of the plan's tables, which recorded calls refer to.
     void light(kernels::Scattering kind, const kernels::LightTable<Real>& lights, kernels::Range vertices,
                std::uint32_t which, std::uint32_t bounce);
 };

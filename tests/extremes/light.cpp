@@ -151,10 +151,8 @@ void light_a_plane(Errors& errors, Dice& dice) {
     const Double3 to = kernels::unit(n * up + dice.across(n) * std::sqrt(1 - up * up)) * d;
     const auto normal = unit_length<Real>(n);
     const kernels::Vec3<Real> light{static_cast<Real>(to.x), static_cast<Real>(to.y), static_cast<Real>(to.z)};
-    kernels::LitVertex<V> vertex{};
-    vertex.normal = broadcast<V>(normal);
     const auto sample = kernels::sample_point<V>({F(0), F(0), F(0)}, broadcast<V>(light));
-    const F pdf = kernels::response_pdf<V, kernels::Response::diffuse>({}, {}, vertex, sample.direction);
+    const F pdf = kernels::response_pdf<V, kernels::Response::diffuse>(broadcast<V>(normal), sample.direction, nullptr);
     const F arrives = pdf * sample.inverse_distance * sample.inverse_distance;
     const Wide3 exact = widen(light);
     const Wide distance = length(exact), pi = static_cast<Wide>(std::numbers::pi_v<long double>);

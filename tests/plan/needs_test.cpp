@@ -1,6 +1,8 @@
 // Needs: what a scene does not use is not run.
 #include <gtest/gtest.h>
 
+#include <ctime>
+
 #include "plan/worlds.hpp"
 
 namespace orrery::test {
@@ -74,6 +76,24 @@ TEST(Needs, CausticsWhereASmoothSphereStandsApartFromALamp) {
     EXPECT_FALSE(caustics({specular, diffuse}, 3, [](RenderSettings& s) { s.caustics = false; }));
     EXPECT_FALSE(caustics({specular, diffuse}, 3, [](RenderSettings& s) { s.transport = Transport::nee; }));
     EXPECT_FALSE(caustics({specular, diffuse}, 3, [](RenderSettings& s) { s.integrator = Integrator::whitted; }));
+}
+
+TEST(Needs, CausticsOfManyBallsInTimeInProportion) {
+    const auto seconds = [](std::size_t balls) {
+        Scene scene = world({specular, diffuse});
+        scene.primitives[1].emission = glm::dvec3{1};
+        scene.primitives[1].centre = {0, 1e6, 0};
+        const Primitive ball = scene.primitives[0];
+        for (std::size_t i = 1; i < balls; ++i) {
+            scene.primitives.push_back(ball);
+            scene.primitives.back().centre.x += 3 * ball.radius * static_cast<double>(i);
+        }
+        const std::clock_t start = std::clock();
+        EXPECT_LE(plan_caustics(scene).size(), 12u);
+        return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    };
+    // Ten times as many would take a hundred times as long if each ball were held against all others.
+    EXPECT_LT(seconds(40'000), 40 * seconds(4'000) + 0.05);
 }
 
 TEST(Needs, ALensWhereTheApertureIsOpen) {
