@@ -78,7 +78,7 @@ class CausticStages : public testing::TestWithParam<Isa> {};
 TEST_P(CausticStages, SampleEveryWayToTheLampAndWeighAsChanceDoes) {
     const auto& stages = kernels::stages_for<double>(GetParam());
     Random random(11, 0);
-    double chi2 = 0;
+    double chi2 = 0, excess = 0;
     int tests = 0;
     std::uint32_t samples = 0, astray = 0, other_weight = 0;
     for (int trial = 0; trial < 60; ++trial) {
@@ -95,7 +95,7 @@ TEST_P(CausticStages, SampleEveryWayToTheLampAndWeighAsChanceDoes) {
         for (std::uint32_t c = group.first; c < group.first + group.count; ++c) {
             const auto& caustic = tables.caustics.entries[c];
             double found = 0, found2 = 0;
-            constexpr int waves = 4;
+            constexpr int waves = 16;
             for (int wave = 0; wave < waves; ++wave) {
                 put_vertices(q);
                 context.seed = 100 * static_cast<std::uint32_t>(trial) + static_cast<std::uint32_t>(wave);
@@ -143,7 +143,7 @@ TEST_P(CausticStages, SampleEveryWayToTheLampAndWeighAsChanceDoes) {
             const Primitive& ball = scene.primitives[ball_id];
             const double distance = glm::length(ball.centre), sine = ball.radius / distance;
             const double range = 1 - std::sqrt(1 - sine * sine);
-            constexpr int directions = 20000;
+            constexpr int directions = 100000;
             int hits = 0;
             for (int k = 0; k < directions; ++k) {
                 const dvec3 d = random.in_cone(ball.centre, 1 - range);
@@ -155,7 +155,8 @@ TEST_P(CausticStages, SampleEveryWayToTheLampAndWeighAsChanceDoes) {
             const double of_expected =
                 std::pow(2 * std::numbers::pi * range, 2) * (share * (1 - share) + 1.0 / directions) / directions;
             if (hits < 50) continue;  // no normal distribution
-            chi2 += (mean - expected) * (mean - expected) / (variance + of_expected);
+            const double z = (mean - expected) / std::sqrt(variance + of_expected);
+            chi2 += z * z, excess += z;
             ++tests;
         }
     }
@@ -165,6 +166,8 @@ TEST_P(CausticStages, SampleEveryWayToTheLampAndWeighAsChanceDoes) {
     EXPECT_LT(other_weight, samples / 1000) << "of " << samples;
     // Of that many independent squares of normal numbers; 5 standard deviations.
     EXPECT_LT(chi2, tests + 5 * std::sqrt(2.0 * tests));
+    EXPECT_LT(std::abs(excess), 4 * std::sqrt(1.0 * tests)) << "over " << tests;
+    RecordProperty("excess", std::to_string(excess / std::sqrt(1.0 * tests)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Isas, CausticStages, testing::ValuesIn([] {

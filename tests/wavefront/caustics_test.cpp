@@ -1,7 +1,7 @@
 // Light over one smooth sphere: sampled on purpose or met by chance, it is the same light.
 //
-// A screen hides the lamp from the floor, so that what a ball sends there is a large part of the image: between a tenth
-// and all of it, and an error of 1 % of that light shows.
+// A screen hides the lamp from the floor, so that what a ball sends there is nearly all there is: an error of a tenth
+// of that light shows. (Chance is too noisy for less; caustic_stages_test.cpp sees 1 % in the weights and densities.)
 #include <gtest/gtest.h>
 
 #include "image/compare.hpp"
@@ -15,73 +15,67 @@ struct Case {
     void (*build)(Scene&);
 };
 
-/// A floor under a screened lamp; no ball yet.
+/// A floor in the shadow of a screen before a lamp; no ball yet.
 Scene screened(const Material& floor) {
-    Scene scene = picture({0, 3.2, -6}, {0.6, 0, 0}, 34, 6);
+    Scene scene = picture({0.6, 4.5, -6}, {0.6, 0, 0}, 16, 6);
     add_sphere(scene, {0, -200, 0}, 200, floor);
-    add_sphere(scene, {-2.2, 1.4, 0}, 1.1, diffuse(dvec3{0}));  // the screen
-    add_lamp(scene, {-4.2, 2.2, 0}, 0.6, {30, 25, 20}, diffuse(dvec3{0}));
+    add_sphere(scene, {-2.32, 2.03, 0}, 1, diffuse(dvec3{0}));  // the screen
+    add_lamp(scene, {-4, 3.2, 0}, 1, {30, 25, 20}, diffuse(dvec3{0}));
     return scene;
 }
+
+/// Where a ball has the lamp in sight, and the floor.
+const dvec3 above{-0.3, 3.4, 0.6};
 
 const Material chalk = diffuse({0.8, 0.7, 0.6});
 
 const std::vector<Case> cases = {
     {"Mirror",
      [](Scene& s) {
-         add_sphere(s, {0.4, 2.6, 0.5}, 0.9, tinted(mirror(0), {0.9, 0.6, 0.3}));
+         add_sphere(s, above, 1.1, tinted(mirror(0), {0.9, 0.6, 0.3}));
      }},
     {"Glass",
      [](Scene& s) {
-         add_sphere(s, {0.2, 2.7, 0.3}, 0.8, tinted(glass(0, 1.5), {0.9, 0.8, 0.7}, {0.6, 0.8, 1}));
+         add_sphere(s, above, 1.1, tinted(glass(0, 1.5), {0.9, 0.8, 0.7}, {0.6, 0.8, 1}));
      }},
-    {"Diamond",
-     [](Scene& s) {
-         add_sphere(s, {0.2, 2.7, 0.3}, 0.8, glass(1, 2.4));
-     }},
-    {"Bubble",
-     [](Scene& s) {
-         add_sphere(s, {0.2, 2.7, 0.3}, 0.8, glass(1, 0.7));
-     }},
-    {"Invisible",
-     [](Scene& s) {
-         add_sphere(s, {0.2, 2.7, 0.3}, 0.8, glass(1, 1));
-     }},
+    {"Diamond", [](Scene& s) { add_sphere(s, above, 1.1, glass(1, 2.4)); }},
+    {"Bubble", [](Scene& s) { add_sphere(s, above, 1.1, glass(1, 0.7)); }},
+    {"Invisible", [](Scene& s) { add_sphere(s, above, 1.1, glass(1, 1)); }},
     {"OnTheFloor",
      [](Scene& s) {
          add_sphere(s, {1.2, 0.7, 0.3}, 0.7, glass(1, 1.5));
      }},
     {"CutByOthers",
      [](Scene& s) {
-         add_sphere(s, {0.2, 2.7, 0.3}, 0.8, glass(1, 1.5));
-         add_sphere(s, {0.2, 2.4, 0.3}, 0.3, diffuse({0.2, 0.6, 0.9}));   // within it
-         add_sphere(s, {0.9, 3.1, 0.3}, 0.35, diffuse({0.9, 0.2, 0.2}));  // across its surface
+         add_sphere(s, above, 1.1, glass(1, 1.5));
+         add_sphere(s, above - dvec3{0, 0.4, 0}, 0.4, diffuse({0.2, 0.6, 0.9}));     // within it
+         add_sphere(s, above + dvec3{0.9, 0.5, 0}, 0.45, diffuse({0.9, 0.2, 0.2}));  // across its surface
      }},
     {"Nested",
      [](Scene& s) {
-         add_sphere(s, {0.2, 2.7, 0.3}, 0.8, glass(1, 1.5));
-         add_sphere(s, {0.2, 2.7, 0.3}, 0.6, glass(1, 1 / 1.5));
+         add_sphere(s, above, 1.1, glass(1, 1.5));
+         add_sphere(s, above, 0.8, glass(1, 1 / 1.5));
      }},
     {"TwoAndTwoLamps",
      [](Scene& s) {
-         add_sphere(s, {0.4, 2.6, 0.9}, 0.7, mirror(0.9));
-         add_sphere(s, {0.1, 2.2, -0.8}, 0.6, glass(1, 1.5));
-         add_lamp(s, {-3.4, 3.4, 1.5}, 0.4, {5, 15, 25});
+         add_sphere(s, above + dvec3{0, 0, 1}, 0.9, mirror(0.9));
+         add_sphere(s, above - dvec3{0, 0, 1.2}, 0.9, glass(1, 1.5));
+         add_lamp(s, {-3.4, 4.6, 1.5}, 0.5, {5, 15, 25});
      }},
     {"LampTouchesOneBall",
      [](Scene& s) {
-         add_sphere(s, {-4.2, 3.3, 0}, 0.5, glass(1, 1.5));
-         add_sphere(s, {0.4, 2.6, 0.5}, 0.9, mirror(0.9));
+         add_sphere(s, {-4, 4.7, 0}, 0.5, glass(1, 1.5));
+         add_sphere(s, above, 1.1, mirror(0.9));
      }},
     {"LampInGlass",
      [](Scene& s) {
-         add_sphere(s, {-4.2, 2.2, 0}, 0.9, glass(1, 1.5));
-         add_sphere(s, {0.4, 2.6, 0.5}, 0.9, mirror(0.9));
+         add_sphere(s, {-4, 3.2, 0}, 1.03, glass(1, 1.5));
+         add_sphere(s, above, 1.1, mirror(0.9));
      }},
     {"GlassHoldsTheEye",
      [](Scene& s) {
          add_sphere(s, {0, 0, 0}, 15, glass(1, 1.2));
-         add_sphere(s, {0.4, 2.6, 0.5}, 0.9, glass(1, 1.6));
+         add_sphere(s, above, 1.1, glass(1, 1.6));
      }},
     {"BallBelowTheHorizon",
      [](Scene& s) {
@@ -89,7 +83,7 @@ const std::vector<Case> cases = {
      }},
     {"ALampThatIsTheBall",
      [](Scene& s) {
-         add_lamp(s, {0.4, 2.6, 0.5}, 0.9, {2, 3, 4}, mirror(0.9));
+         add_lamp(s, above, 1.1, {2, 3, 4}, mirror(0.9));
      }},
 };
 
@@ -116,9 +110,8 @@ class CausticsOn : public testing::TestWithParam<double> {};
 TEST_P(CausticsOn, RoughSurfacesAsOnDiffuseOnes) {
     const double roughness = GetParam();
     Scene scene = screened(roughness < 0 ? glass(0.9, 1.4, -roughness) : glossy(0.8, roughness));
-    add_sphere(scene, {0.4, 2.6, 0.5}, 0.9, mirror(0.9));
-    add_sphere(scene, {0.2, 0.9, -1}, 0.5, glass(1, 1.5));
-    scene.primitives[2].radius = 1;  // the lamp: the reference finds it by chance, and often enough
+    add_sphere(scene, above, 1.1, mirror(0.9));
+    add_sphere(scene, above - dvec3{0, 0.4, 1.9}, 0.6, glass(1, 1.5));
     expect_agreement_of({variant("chance", false), variant("sampled", true)}, scene,
                         {.samples = 4096, .seeds = 4, .reference_samples = 2000});
 }
@@ -128,8 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Floors, CausticsOn, testing::Values(0.15, 0.7, -0.3)); 
 TEST(CausticsDepth, CountsTheEventsAtTheBall) {
     for (std::uint32_t depth = 0; depth <= 4; ++depth) {
         Scene scene = screened(chalk);
-        add_sphere(scene, {0.2, 2.7, 0.3}, 0.8, glass(1, 1.5));
-        scene.primitives[2].radius = 1;  // the lamp, which chance shall find often enough
+        add_sphere(scene, above, 1.1, glass(1, 1.5));
         scene.settings.depth = depth;
         expect_agreement_of({variant("chance", false), variant("sampled", true)}, scene,
                             {.samples = 4096, .seeds = 4, .reference_samples = 1000});
