@@ -105,6 +105,19 @@ TEST_P(Caustics, SampledOrMetByChanceAreTheSameLight) {
 INSTANTIATE_TEST_SUITE_P(Balls, Caustics, testing::ValuesIn(cases),
                          [](const testing::TestParamInfo<Case>& of) { return of.param.name; });
 
+TEST(CausticsMean, IsThatOfChance) {
+    for (const Material& ball : {mirror(0.9), glass(0.9, 1.5)}) {
+        Scene scene = screened(chalk);
+        add_sphere(scene, above, 1.1, ball);
+        const auto blocks = [&](bool caustics, std::uint32_t samples) {
+            return blocks_of(scene, variant("", caustics), {.samples = samples, .seeds = 8, .block_size = 16});
+        };
+        const auto comparison = statistics::compare(blocks(true, 1 << 12), blocks(false, 1 << 16), one_of_the_family);
+        EXPECT_TRUE(comparison.agrees) << comparison.message;
+        record(comparison);
+    }
+}
+
 class CausticsOn : public testing::TestWithParam<double> {};
 
 TEST_P(CausticsOn, RoughSurfacesAsOnDiffuseOnes) {
