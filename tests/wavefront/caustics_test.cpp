@@ -1,7 +1,8 @@
 // Light over one smooth sphere: sampled on purpose or met by chance, it is the same light.
 //
-// A screen hides the lamp from the floor, so that what a ball sends there is nearly all there is: an error of a tenth
-// of that light shows. (Chance is too noisy for less; caustic_stages_test.cpp sees 1 % in the weights and densities.)
+// A screen hides the lamp from the floor, so that a quarter of the image or more is what a ball sends there: most of
+// these scenes show an error of half that light, CausticsMean one of 3 %. (caustic_stages_test.cpp sees 1 % in the
+// weights and densities.)
 #include <gtest/gtest.h>
 
 #include "image/compare.hpp"
