@@ -34,7 +34,7 @@ std::uint32_t pick_caustics(const CausticContext<RealOf<V>>& context, std::uint3
     const auto* const members = context.caustics.entries + of.first;
     const F rate(of.rate * rough_scale<response>(caustic_scale(context.caustics, context.bounce)));
     const RandomKey key{context.seed, Dimension::caustic, group};
-    draw<V, 4>(context.slots, rays, run, key, context.bounce);
+    const bool sobol = context.slots.sobol.x != nullptr;
     std::uint32_t picked = 0;
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
@@ -44,7 +44,7 @@ std::uint32_t pick_caustics(const CausticContext<RealOf<V>>& context, std::uint3
         const F q = caustic_probability<V>(*members, rate, p, departed_normal<V>(context.spheres, p, departed),
                                            departed & U(no_sphere));
         if (!any(q > F(0))) continue;
-        const F x = random_for<V, 4>(context.slots, rays, i, key, context.bounce).x;
+        const F x = random_now<V>(sobol, key, load<U>(rays.pixel + i), load<U>(rays.sample + i), U(context.bounce)).x;
         const auto dead = carries_nothing(load3<V>(rays.tr + i, rays.tg + i, rays.tb + i));
         const std::uint32_t chosen = bits(x < q && in_run && !dead);
         if (chosen == 0) continue;
@@ -73,6 +73,7 @@ std::uint32_t connect_caustic(const CausticContext<RealOf<V>>& context, std::uin
     using U = Words<V>;
     const auto& caustic = context.caustics.entries[which];
     const RandomKey key{context.seed, Dimension::caustic, caustic.group};
+    const bool sobol = context.slots.sobol.x != nullptr;
     // Those of this caustic, gathered until they fill a vector.
     alignas(64) WordOf<Real> place[2 * V::count] = {};
     alignas(64) Real probability[2 * V::count] = {};
@@ -84,12 +85,8 @@ std::uint32_t connect_caustic(const CausticContext<RealOf<V>>& context, std::uin
         const U departed = choose(live, gather<U>(rays.departed, i), U(0u));
         const Vec3<F> p{at(rays.ox), at(rays.oy), at(rays.oz)};
         const auto normal = departed_normal<V>(context.spheres, p, departed);
-        RandomNumbers<F> random;
-        if (context.slots.sobol.x != nullptr) {
-            random = {F(0), at(context.slots.sobol.y), at(context.slots.sobol.z), at(context.slots.sobol.w)};
-        } else {
-            random = random_block<V>(key, gather<U>(rays.pixel, i), gather<U>(rays.sample, i), U(context.bounce));
-        }
+        const auto random =
+            random_now<V>(sobol, key, gather<U>(rays.pixel, i), gather<U>(rays.sample, i), U(context.bounce));
         const auto frame = ball_frame<V>(caustic, p);
         const auto sample = sample_caustic<V>(caustic, frame, random.y, random.z, random.w);
         const F pdf = response_pdf<V, response>(normal, sample.direction, [&]() ORRERY_INLINE_LAMBDA {

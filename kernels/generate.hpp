@@ -37,11 +37,15 @@ void generate(const CameraTable<RealOf<V>>& camera, const Slots<V>& slots, std::
     const RandomKey key{seed, Dimension::camera, 0};
     constexpr int dimensions = has_lens ? 4 : 2;
     const bool sobol = slots.sobol.x != nullptr;
-    if (sobol) draw_sobol<V, dimensions>(slots, {slots.pixel, slots.sample, nullptr}, {0, count}, key, 0);
+    if (sobol) {
+        for (std::uint32_t i = 0; i < count; i += V::count)
+            save(rays.sample + i, reversed_bits(load<U>(slots.sample + i)));
+        draw_sobol<V, dimensions>(slots, {slots.pixel, rays.sample, nullptr}, {0, count}, key, 0);
+    }
     const F zero(0), one(1);
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const U pixel = load<U>(slots.pixel + i);
-        const U sample = load<U>(slots.sample + i);
+        const U sample = load<U>((sobol ? rays.sample : slots.sample) + i);
         const auto random =
             sobol ? drawn<V, dimensions>(slots.sobol, i) : random_block<V>(key, pixel, sample, U(Word{0}));
         const F x = mul_add(random.x, F(camera.cell_width), load<F>(slots.plane_x + i));

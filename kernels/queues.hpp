@@ -36,8 +36,8 @@ struct RayQueue {
     Real* eta_scale;     ///< product of the (eta_i / eta_t)^2 inside the throughput. Null without dielectrics.
     Word* departed;      ///< sphere the ray leaves, inside_bit set when it runs inward; no_sphere from the camera
     Word* slot;          ///< which (pixel, sample) of the wave
-    Word* pixel;   ///< the slot's pixel and sample as they are there, keys of randomness: carried along, as moving
-    Word* sample;  ///< two words with the ray costs less than gathering them by slot at a vertex's four uses
+    Word* pixel;  ///< the slot's pixel and sample, of Sobol's sequences with bits reversed: keys of randomness, carried
+    Word* sample;  ///< along, as moving two words with the ray costs less than gathering them by slot at four uses
     Word* vertex;  ///< Whitted: the ray's node in the slot's ray tree, root 1, children 2n and 2n + 1. Null for paths,
                    ///< where all rays have the number of the bounce.
 
@@ -160,7 +160,7 @@ template <class Real>
 struct SlotTable {
     using Word = WordOf<Real>;
     Word* pixel;              ///< y * width + x
-    Word* sample;             ///< sample number within the pixel; of Sobol's sequences with bits reversed
+    Word* sample;             ///< sample number within the pixel
     Real *plane_x, *plane_y;  ///< corner of the sample's cell on the image plane at distance 1
     Real* radiance;           ///< gathered so far: r, g, b and one unused, four numbers per slot
     SobolQueue<Real> sobol;   ///< present where samples are those of Sobol's sequences

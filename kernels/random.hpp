@@ -78,16 +78,19 @@ ORRERY_INLINE RandomNumbers<Floats<V>> random_block(const RandomKey& key, const 
 
 // --- low-discrepancy numbers --------------------------------------------------------------------------------------
 //
-// A Sobol' sequence per pixel and vertex, scrambled as Owen does: samples that spread evenly over the dimensions of one
-// decision, and still are random numbers, each uniform, whose mean has no bias.
+// A Sobol' sequence per pixel and decision, run through in an order of its own: samples that spread evenly over the
+// dimensions of one decision, and still are random numbers, each uniform, whose mean has no bias.
 //
-// Art B. Owen, "Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences" (1995): every bit of a number is flipped or not,
-// by chance, given the bits above it. Brent Burley, "Practical Hash-based Owen Scrambling" (JCGT 9(4), 2020): a hash
-// in which bits change only by those below them, applied to the bits in reverse order, does it for 32 bits at once;
-// scrambling the *index* too gives every vertex and decision its own order of the same points, so that sequences of
-// two dimensions make one of any number.
+// The order is what is random. Of the sequence's 2^32 points 2^m consecutive ones, begun at a multiple of 2^m, are a
+// net, each of which is another's digital shift. Brent Burley, "Practical Hash-based Owen Scrambling" (JCGT 9(4), 2020)
+// shuffles the *index* by a hash in which bits change only by those above them, so that the first 2^m numbers of
+// samples become such indices, in an order by chance, of a net by chance. Pairs of dimensions shuffled apart make
+// points of any number of dimensions. The camera's place in the pixel, on which all edges depend, is scrambled as Art
+// B. Owen does, too
+// ("Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences", 1995): every bit of a number is flipped or not, by chance,
+// given the bits above it. To scramble all numbers would take twice as long and was not seen to leave less error.
 //
-// A pixel has two sequences, scrambled apart: samples of even number run through one, of odd number through the other.
+// A pixel has two sequences, shuffled apart: samples of even number run through one, of odd number through the other.
 // Of equally many of both the difference tells the error of the sum without bias (film/contrasts.hpp), which no single
 // sequence can.
 
@@ -102,32 +105,24 @@ ORRERY_INLINE U flipped_by_lower(const U& word, const U& seed) {
     return x ^ multiply_words(x, U(0x53A22864u));
 }
 
-/// The second dimension of Sobol's sequence at `index`, bits in reverse order: the matrix is Pascal's triangle modulo
-/// 2, whose entry (j, k) is 1 where the bits of j are among those of k (Lucas), so that bit j is the sum of the bits k
-/// of the index over all k that hold j: five steps, one for each bit of k.
+/// The second dimension of Sobol's sequence, as 32 bits behind the point, where `first` is the first. The matrix is
+/// Pascal's triangle modulo 2, whose entry (j, k) is 1 where the bits of j are among those of k (Lucas), so that bit j
+/// is the sum of the bits k of the index over all k that hold j: five steps, one for each bit of k. The first dimension
+/// is the index with its bits in reverse order, so that the steps go up and not down.
 template <class U>
-ORRERY_INLINE U reversed_second_dimension(const U& index) {
-    U x = low_half(index);
-    x = x ^ (x >> 1 & U(0x55555555u));
-    x = x ^ (x >> 2 & U(0x33333333u));
-    x = x ^ (x >> 4 & U(0x0F0F0F0Fu));
-    x = x ^ (x >> 8 & U(0x00FF00FFu));
-    return x ^ x >> 16;
+ORRERY_INLINE U second_dimension(const U& first) {
+    U x = first;
+    x = x ^ (x << 1 & U(0xAAAAAAAAu));
+    x = x ^ (x << 2 & U(0xCCCCCCCCu));
+    x = x ^ (x << 4 & U(0xF0F0F0F0u));
+    x = x ^ (x << 8 & U(0xFF00FF00u));
+    return x ^ x << 16;
 }
 
-/// Scrambled points, in the low halves.
+/// Owen's scrambling.
 template <class U>
-struct SobolPair {
-    U x, y;
-};
-
-/// The first two dimensions; `place` is the number in the sequence, bits in reverse order.
-template <class U>
-ORRERY_INLINE SobolPair<U> sobol_pair(const U& place, const U& order, const U& seed_x, const U& seed_y) {
-    const U index = reversed_bits(flipped_by_lower(place, order));
-    // The first dimension is the index with its bits reversed: in reverse order, the index.
-    return {reversed_bits(flipped_by_lower(index, seed_x)),
-            reversed_bits(flipped_by_lower(reversed_second_dimension(index), seed_y))};
+ORRERY_INLINE U flipped_by_higher(const U& word, const U& seed) {
+    return reversed_bits(flipped_by_lower(reversed_bits(word), seed));
 }
 
 /// Points of Sobol's sequences: x and y are one, z and w another, each pair spread evenly, and paired with the other by
@@ -136,14 +131,24 @@ template <class V>
 ORRERY_INLINE RandomNumbers<Floats<V>> sobol_block(const RandomKey& key, const Words<V>& pixel, const Words<V>& sample,
                                                    const Words<V>& vertex) {
     using U = Words<V>;
-    const U word(detail::word_of(key));
     const U place = sample << 1;
     const U sequence = low_half(sample) >> 31;
-    const auto seeds = pcg4d<U>(pixel, sequence, vertex, word);
-    const auto more = pcg4d<U>(pixel, sequence | U(2u), vertex, word);
-    const auto first = sobol_pair<U>(place, seeds.x, seeds.y, seeds.z);
-    const auto second = sobol_pair<U>(place, more.x, more.y, more.z);
-    return {unit_interval(first.x), unit_interval(first.y), unit_interval(second.x), unit_interval(second.y)};
+    const auto orders = pcg4d<U>(pixel, sequence, vertex, U(detail::word_of(key)));
+    U x = flipped_by_lower(place, orders.x);
+    U y = second_dimension(x);
+    if (key.dimension == Dimension::camera) {
+        x = flipped_by_higher(x, orders.z);
+        y = flipped_by_higher(y, orders.w);
+    }
+    const U z = flipped_by_lower(place, orders.y);
+    return {unit_interval(x), unit_interval(y), unit_interval(z), unit_interval(second_dimension(z))};
+}
+
+/// Either of the two, decided now.
+template <class V>
+ORRERY_INLINE RandomNumbers<Floats<V>> random_now(bool sobol, const RandomKey& key, const Words<V>& pixel,
+                                                  const Words<V>& sample, const Words<V>& vertex) {
+    return sobol ? sobol_block<V>(key, pixel, sample, vertex) : random_block<V>(key, pixel, sample, vertex);
 }
 
 }  // namespace orrery::kernels

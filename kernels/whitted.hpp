@@ -105,7 +105,7 @@ std::uint32_t resume(const Slots<V>& slots, const BranchStack<RealOf<V>>& stack,
                 if (stack.rays.*field != nullptr) (rays.*field)[count] = (stack.rays.*field)[entry];
             });
             rays.pixel[count] = slots.pixel[s];
-            rays.sample[count] = slots.sample[s];
+            rays.sample[count] = slots.sobol.x == nullptr ? slots.sample[s] : reversed_bits(slots.sample[s]);
             ++count;
         }
         live[s] = 0;

@@ -2,8 +2,6 @@
 
 #include <stdexcept>
 
-#include "kernels/lanes/words.hpp"
-
 namespace orrery {
 
 namespace {
@@ -73,8 +71,6 @@ std::uint32_t fill(Wave<Real>& wave, std::uint32_t x, std::uint32_t y, const Pat
             slots.plane_y[s] = y_of_row;
         }
     }
-    if (slots.sobol.x != nullptr)
-        for (std::uint32_t s = first; s < end; ++s) slots.sample[s] = kernels::reversed_bits(slots.sample[s]);
     wave.count += count;
     return begin;
 }

@@ -1,4 +1,5 @@
-// Owen-scrambled Sobol' points written a second time: bit by bit, from the papers, the sequence from its polynomials.
+// Sobol' points, shuffled and scrambled, written a second time: bit by bit, from the papers, the sequence from its
+// polynomials.
 #pragma once
 
 #include <array>
@@ -40,7 +41,7 @@ inline std::uint32_t flipped_reference(std::uint32_t word, std::uint32_t seed) {
     return static_cast<std::uint32_t>(x);
 }
 
-/// Owen's scrambling of a number's bits behind the point, and Burley's of an index.
+/// Owen's scrambling of a number's bits behind the point, and Burley's shuffling of an index.
 inline std::uint32_t scrambled_reference(std::uint32_t x, std::uint32_t seed) {
     return reversed_reference(flipped_reference(reversed_reference(x), seed));
 }
@@ -50,11 +51,15 @@ inline std::array<std::uint32_t, 4> sobol_block_reference(std::uint32_t seed, st
                                                           std::uint32_t sample, std::uint32_t vertex) {
     const auto key = static_cast<std::uint32_t>(seed + std::uint64_t{block} * 0x9E3779B9u);
     std::array<std::uint32_t, 4> words{};
+    const auto orders = pcg4d_reference({pixel, sample % 2, vertex, key});
     for (std::uint32_t pair = 0; pair < 2; ++pair) {
-        const auto seeds = pcg4d_reference({pixel, sample % 2 + 2 * pair, vertex, key});
-        const auto point = sobol_reference(scrambled_reference(sample / 2, seeds[0]));
-        words[2 * pair] = scrambled_reference(point[0], seeds[1]);
-        words[2 * pair + 1] = scrambled_reference(point[1], seeds[2]);
+        const auto point = sobol_reference(scrambled_reference(sample / 2, orders[pair]));
+        words[2 * pair] = point[0];
+        words[2 * pair + 1] = point[1];
+    }
+    if (block == 0) {  // the camera's
+        words[0] = scrambled_reference(words[0], orders[2]);
+        words[1] = scrambled_reference(words[1], orders[3]);
     }
     return words;
 }

@@ -83,12 +83,15 @@ TEST_P(SobolTest, CameraRaysTakeTheirSlotsPoints) {
     Points points(capacity);
     kernels::SlotTable<float> table = *slots;
     table.sobol = *points;
-    for (std::uint32_t i = 0; i < count; ++i) slots->pixel[i] = i / 6, slots->sample[i] = reversed_reference(i % 6);
+    for (std::uint32_t i = 0; i < count; ++i) slots->pixel[i] = i / 6, slots->sample[i] = i % 6;
     for (std::uint32_t i = 0; i < count; ++i) slots->plane_x[i] = slots->plane_y[i] = 0;
     kernels::CameraTable<float> camera{};
     camera.xx = camera.yy = camera.zz = 1, camera.cell_width = camera.cell_height = 1, camera.focal_distance = 1;
     stages.generate_lens(camera, table, count, 9, *rays);
-    for (std::uint32_t i = 0; i < count; ++i) expect_drawn(points, i, sobol_block_reference(9, 0, i / 6, i % 6, 0), 4);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        expect_drawn(points, i, sobol_block_reference(9, 0, i / 6, i % 6, 0), 4);
+        ASSERT_EQ(rays->sample[i], reversed_reference(i % 6));
+    }
     // A camera at the centre that looks along z: the ray passes the plane at distance 1 at its first two numbers.
     stages.generate_pinhole(camera, table, count, 9, *rays);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -183,20 +186,22 @@ TEST_P(SobolQuality, OverPixelsPointsAreUniformAndUnrelated) {
     }
 }
 
-// Where in its cell a point lies is as random as the cell: what a shift of one fixed grid would not be.
+// Where in its cell a point lies is as random as the cell: of the camera's points one by one, of others sequence by
+// sequence.
 TEST_P(SobolQuality, PointsAreScatteredWithinTheirCells) {
     constexpr std::uint32_t n = 1 << 17;
-    const auto u = draw<float>(GetParam(), {4, Dimension::camera, 0}, n, [](std::uint32_t i) {
-        return std::array<std::uint32_t, 3>{i / 16, 2 * (i % 16), 0};
-    });
-    Histogram within(32, 32), neighbours(32, 32);
-    const auto part = [&](std::size_t word, std::uint32_t i, float cells) {
-        return std::fmod(u[word][i] * cells, 1.0f);
-    };
-    for (std::uint32_t i = 0; i < n; ++i) within.add(part(0, i, 16), part(1, i, 16));
-    for (std::uint32_t i = 0; i + 1 < n; i += 2) neighbours.add(part(0, i, 16), part(0, i + 1, 16));
-    within.expect_uniform("both coordinates within the cell of sixteenths");
-    neighbours.expect_uniform("two points of a pixel within their cells");
+    for (const auto& [dimension, stride] : {std::pair{Dimension::camera, 2u}, {Dimension::scattering, 1u}}) {
+        const auto u = draw<float>(GetParam(), {4, dimension, 0}, n, [s = stride](std::uint32_t i) {
+            return std::array<std::uint32_t, 3>{i / 16, s * (i % 16), 0};
+        });
+        Histogram within(32, 32), two(32, 32);
+        const auto part = [&](std::size_t word, std::uint32_t i) { return std::fmod(u[word][i] * 16, 1.0f); };
+        const std::uint32_t step = dimension == Dimension::camera ? 1 : 16;
+        for (std::uint32_t i = 0; i < n; i += step) within.add(part(0, i), part(1, i));
+        for (std::uint32_t i = 0; i + 1 < n; i += 2 * step) two.add(part(0, i), part(0, i + 1));
+        within.expect_uniform("both coordinates within the cell of sixteenths");
+        two.expect_uniform("two points of a pixel within their cells");
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Best, SobolQuality, ::testing::Values(best_isa()), name_of_isa);
