@@ -86,8 +86,11 @@ void ErrorSums::add(const PixelEstimate& pixel, const Surroundings& around) {
         double by_itself = v, error = v;  // not known
         if (std::isfinite(v)) {
             by_itself = v * inverse_square(mean, v, skew, pixel.degrees, 0, 0, 1);
-            const double kept = around.count == 0 ? 1 : kept_of(mean, v, others, of_others, around.scatter.*channel);
-            error = v * inverse_square(mean, v, skew, pixel.degrees, others, of_others, kept);
+            error = by_itself;
+            if (around.count > 0) {
+                const double kept = kept_of(mean, v, others, of_others, around.scatter.*channel);
+                error = v * inverse_square(mean, v, skew, pixel.degrees, others, of_others, kept);
+            }
         }
         sum += error / 3;
         least += without_edges * std::min(by_itself, error) / 3;

@@ -17,6 +17,14 @@ PixelEstimate estimate(const Film& film, Integrator integrator, std::size_t pixe
     return {{v, v, v}, {variance, variance, variance}, {skew, skew, skew}, mean.degrees, mean.blocks};
 }
 
+/// Whether what the pixels around show would make a difference: within two standard errors of such a pixel's mean they
+/// change its relative error by a few hundredths up or down, beyond these they are not asked.
+bool well_known(const Rgb& value, const Rgb& error) {
+    constexpr double little = 1e-4;
+    const auto is = [&](double v, double e) { return e * e <= little * (v * v + relative_floor); };
+    return is(value.r, error.r) && is(value.g, error.g) && is(value.b, error.b);
+}
+
 /// An image whose pixels `value` gives.
 template <class Value>
 Image image_of(const Film& film, const Developing& how, Value value) {
@@ -51,9 +59,8 @@ ErrorSums error_of_tile(const Film& film, Integrator integrator, const Image& im
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x)
             if (tile.has(x, y)) {
                 const PixelEstimate pixel = estimate(film, integrator, std::size_t{y} * image.width + x);
-                const Rgb& error = errors.at(x, y);
-                const bool noisy = error.r + error.g + error.b > 0;
-                sums.add(pixel, noisy ? surroundings(image, errors, x, y) : Surroundings{});
+                const bool known = well_known(image.at(x, y), errors.at(x, y));
+                sums.add(pixel, known ? Surroundings{} : surroundings(image, errors, x, y));
             }
     return sums;
 }

@@ -130,21 +130,30 @@ double Passes::room(double elapsed, double share_of_time) const {
     return std::min(ceiling(), total_ + rate_ * share_of_time * (goal_.seconds - elapsed));
 }
 
-/// As much again as all before: few barriers and fine strata, and never far beyond what is needed. The first is the
+/// Share of the samples, spread evenly, that the error asked needs if the squared error falls as their number does; 1
+/// where no error is asked or none is known.
+double Passes::share_of_needed(double total) const {
+    if (target() <= 0) return 1;
+    const auto needed = allocate(regions_, target(), std::numeric_limits<double>::infinity());
+    return std::min(total / total_samples(regions_, needed), 1.0);
+}
+
+/// As much again as all before: few barriers and fine strata, and never far beyond what is needed. Far from the error
+/// asked, a power of two of that at once, as learning the error takes time, too: no more than the pilot's part of what
+/// is needed, and than what is enough along edges, where the squared error may fall as n^-1.5. The first pass is the
 /// least that tells an error where time is short.
 double Passes::total_of_next() const {
-    if (count_ > 0) return 2 * total_;
-    return (goal_.seconds > 0 ? 2 : 8) * all_pixels_;
+    if (count_ == 0) return (goal_.seconds > 0 ? 2 : 8) * all_pixels_;
+    const double done = share_of_needed(total_);
+    const double times = std::min(pilot_share / done, std::pow(done, -2.0 / 3));
+    return total_ * std::exp2(std::max(1.0, std::floor(std::log2(times))));
 }
 
 /// What is done when `total` samples are taken at `elapsed`, by whatever will stop the render first.
 double Passes::share(double total, double elapsed) const {
     double share = total / ceiling();
     if (goal_.seconds > 0) share = std::max(share, elapsed / goal_.seconds);
-    if (target() > 0) {
-        const auto needed = allocate(regions_, target(), std::numeric_limits<double>::infinity());
-        share = std::max(share, total / total_samples(regions_, needed));
-    }
+    if (target() > 0) share = std::max(share, share_of_needed(total));
     return std::min(share, 1.0);
 }
 

@@ -61,6 +61,7 @@ private:
     std::vector<double> wanted(double limit) const;
     double ceiling() const;
     double room(double elapsed, double share_of_time) const;
+    double share_of_needed(double total) const;
     double total_of_next() const;
     double share(double total, double elapsed) const;
     Pattern pattern(std::size_t region, double samples, bool keep_below) const;
