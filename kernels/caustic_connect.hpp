@@ -120,6 +120,39 @@ std::uint32_t connect_caustic(const CausticContext<RealOf<V>>& context, std::uin
     return size;
 }
 
+/// Where a segment goes on from a ball that it ends on.
+template <class V>
+struct BallEvent {
+    Vec3Of<V> position, direction;
+};
+
+/// Moves the segments i.. of the queue, which end on the sphere `id`, over their event there, the first being 0. Where
+/// they stay within the ball, they end on it again.
+template <class V>
+ORRERY_INLINE BallEvent<V> follow_event(const Sphere<Floats<V>>& ball, const Words<V>& id, const Floats<V>& eta,
+                                        std::uint32_t chords, std::uint32_t event, const Shadows<V>& queue,
+                                        std::uint32_t i) {
+    using F = Floats<V>;
+    using U = Words<V>;
+    const bool inside = event > 0, leaves = event == chords;
+    const bool refracts = chords > 0 && (event == 0 || leaves);
+    const auto o = load3<V>(queue.ox + i, queue.oy + i, queue.oz + i);
+    const auto d = load3<V>(queue.dx + i, queue.dy + i, queue.dz + i);
+    const F t = F(1) / load<F>(queue.inverse_t_max + i);
+    const Vec3<F> outward = unit(along(o - ball.centre, t, d));
+    const Vec3<F> normal = inside ? outward * F(-1) : outward;
+    const F cosine = min(max(F(0) - dot(normal, d), F(0)), F(1));
+    const Vec3<F> position = along(ball.centre, ball.radius, outward);
+    const Vec3<F> direction = refracts
+                                  ? refracted<V>(d, normal, cosine, interface_at<V>(cosine, inside ? F(1) / eta : eta))
+                                  : unit(reflected(d, normal, cosine));
+    save3<V>(queue.ox + i, queue.oy + i, queue.oz + i, position);
+    save3<V>(queue.dx + i, queue.dy + i, queue.dz + i, direction);
+    save(queue.departed + i, leaves ? id : id | U(inside_bit));
+    if (!leaves) save(queue.inverse_t_max + i, F(1) / inner_far_root(position, direction, ball));
+    return {position, direction};
+}
+
 /// Moves every segment of the queue, which ends on the ball, over its event there to the next one: within the ball, or
 /// from the ball to the lamp. What would miss the lamp, by rounding, carries nothing.
 template <class V>
@@ -129,26 +162,10 @@ void follow_caustic(const Spheres<V>& spheres, const Caustic<RealOf<V>>& caustic
     using U = Words<V>;
     const Sphere<F> ball{{F(caustic.cx), F(caustic.cy), F(caustic.cz)}, F(caustic.radius), F(caustic.radius2)};
     const Sphere<F> lamp = broadcast_sphere<V>(spheres, caustic.lamp);
-    const bool inside = event > 0, leaves = event == caustic.chords;
-    const bool refracts = caustic.chords > 0 && (event == 0 || leaves);
-    const F eta(inside ? 1 / caustic.eta : caustic.eta);
     for (std::uint32_t i = 0; i < count; i += V::count) {
-        const auto o = load3<V>(queue.ox + i, queue.oy + i, queue.oz + i);
-        const auto d = load3<V>(queue.dx + i, queue.dy + i, queue.dz + i);
-        const F t = F(1) / load<F>(queue.inverse_t_max + i);
-        const Vec3<F> outward = unit(along(o - ball.centre, t, d));
-        const Vec3<F> normal = inside ? outward * F(-1) : outward;
-        const F cosine = min(max(F(0) - dot(normal, d), F(0)), F(1));
-        const Vec3<F> position = along(ball.centre, ball.radius, outward);
-        const Vec3<F> direction = refracts ? refracted<V>(d, normal, cosine, interface_at<V>(cosine, eta))
-                                           : unit(reflected(d, normal, cosine));
-        save3<V>(queue.ox + i, queue.oy + i, queue.oz + i, position);
-        save3<V>(queue.dx + i, queue.dy + i, queue.dz + i, direction);
-        save(queue.departed + i, U(leaves ? caustic.ball : caustic.ball | inside_bit));
-        if (!leaves) {
-            save(queue.inverse_t_max + i, F(1) / inner_far_root(position, direction, ball));
-            continue;
-        }
+        const auto [position, direction] =
+            follow_event<V>(ball, U(caustic.ball), F(caustic.eta), caustic.chords, event, queue, i);
+        if (event < caustic.chords) continue;
         const auto line = chord(position, direction, lamp);
         const auto meets = min(line.disc, min(line.b, line.c)) > F(0);
         save(queue.inverse_t_max + i, choose(meets, (line.b + root(max(line.disc, F(0)))) / line.c, F(1)));

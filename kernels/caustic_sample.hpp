@@ -6,17 +6,25 @@
 
 namespace orrery::kernels {
 
-/// Fresnel's share of all events at a ball, for impact parameter s: the same angle each time.
+/// Fresnel's share of all events at a ball of glass, by the cosine of the angle with the normal outside: the same angle
+/// each time.
+template <class V>
+ORRERY_INLINE Floats<V> share_of_events(std::uint32_t chords, const Floats<V>& eta, const Floats<V>& cosine) {
+    using F = Floats<V>;
+    const F reflected = interface_at<V>(cosine, eta).reflectance;
+    if (chords == 0) return reflected;
+    const F through = (F(1) - reflected) * (F(1) - reflected);
+    return chords == 1 ? through : through * reflected;
+}
+
+/// The same for impact parameter s; of a mirror 1.
 template <class V>
 ORRERY_INLINE Floats<V> share_of_events(const Caustic<RealOf<V>>& caustic, const Floats<V>& s) {
     using F = Floats<V>;
     if (caustic.mirror) return F(1);
     const F sine = s * F(1 / caustic.radius);
     const F cosine = root(max((F(1) - sine) * (F(1) + sine), F(0)));
-    const F reflected = interface_at<V>(cosine, F(caustic.eta)).reflectance;
-    if (caustic.chords == 0) return reflected;
-    const F through = (F(1) - reflected) * (F(1) - reflected);
-    return caustic.chords == 1 ? through : through * reflected;
+    return share_of_events<V>(caustic.chords, F(caustic.eta), cosine);
 }
 
 /// A number that chooses between things that come one after another, with weights known only then.

@@ -5,6 +5,7 @@
 
 #include "kernels/caustic_connect.hpp"
 #include "kernels/caustic_emission.hpp"
+#include "kernels/caustic_point_connect.hpp"
 #include "kernels/connect.hpp"
 #include "kernels/emission.hpp"
 #include "kernels/exact.hpp"
@@ -50,6 +51,11 @@ constexpr Stages<RealOf<V>> make_stages(Isa isa) {
     s.unblocked = unblocked<S>;
     s.unblocked_coherent = unblocked_coherent<S>;
     s.unblocked_tree = unblocked_tree<V>;
+    s.pick_point_caustics[0] = pick_point_caustics<W, Response::diffuse>;
+    s.pick_point_caustics[1] = pick_point_caustics<W, Response::glossy>;
+    s.connect_point_caustic[0] = connect_point_caustic<W, Response::diffuse>;
+    s.connect_point_caustic[1] = connect_point_caustic<W, Response::glossy>;
+    s.follow_point_caustic = follow_point_caustic<W>;
     s.follow_caustic = follow_caustic<W>;
     s.roulette = roulette<W>;
     s.expire = expire<V>;

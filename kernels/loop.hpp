@@ -260,11 +260,13 @@ void shadow_coherent(const Spheres<V>& spheres, const Shadows<V>& queue, std::ui
     });
 }
 
-/// Compacts the queue to the segments that nothing but `target` meets; returns how many.
+/// Compacts the queue to the segments that nothing but their target meets, as `shadow` has it; returns how many.
 template <class V>
 std::uint32_t unblocked(const Spheres<V>& spheres, const Shadows<V>& queue, std::uint32_t count, std::uint32_t target) {
     KeepUnblocked<V> deliver{queue};
-    shadow_among<V>(spheres, AllSpheres{spheres.count}, queue, 0, count, target, deliver);
+    with_target(queue, target, [&](const auto& ends) ORRERY_INLINE_LAMBDA {
+        shadow_among<V>(spheres, AllSpheres{spheres.count}, queue, 0, count, ends, deliver);
+    });
     return deliver.size;
 }
 
@@ -273,7 +275,9 @@ template <class V>
 std::uint32_t unblocked_coherent(const Spheres<V>& spheres, const Shadows<V>& queue, std::uint32_t count,
                                  std::uint32_t target) {
     KeepUnblocked<V> deliver{queue};
-    shadow_in_packets<V>(spheres, queue, count, target, deliver);
+    with_target(queue, target, [&](const auto& ends) ORRERY_INLINE_LAMBDA {
+        shadow_in_packets<V>(spheres, queue, count, ends, deliver);
+    });
     return deliver.size;
 }
 

@@ -140,13 +140,13 @@ inline constexpr std::uint32_t chain_open = 4;    ///< the path is within the ba
 inline constexpr std::uint32_t chain_closed = 8;  ///< it has left it
 inline constexpr std::uint32_t chain_begun = 16;  ///< it has met it, what happened there is still open
 
-/// Vertices that sample a caustic.
+/// Vertices that sample a caustic, or look for point lights over a sphere.
 template <class Real>
 struct PickQueue {
     using Word = WordOf<Real>;
     Word* place;        ///< in the ray queue
-    Word* caustic;      ///< which one
-    Real* probability;  ///< of sampling any of its group
+    Word* caustic;      ///< which one; or the sphere
+    Real* probability;  ///< of sampling any of its group; or of asking that sphere
 
     template <class Visit>
     ORRERY_INLINE static void each_field(Visit&& visit) {

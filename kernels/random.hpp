@@ -17,6 +17,7 @@ enum class Dimension : std::uint32_t {
     roulette,            ///< x: survive or not
     light,               ///< light + i: the point or direction sampled for light i
     caustic = 1u << 30,  ///< caustic + i, for group i. x: sampled or not, and which; y, z: impact parameter; w: azimuth
+    point_caustic = 1u << 31,  ///< point_caustic + i: decisions 4 i to 4 i + 3 about which sphere to ask
 };
 
 /// The part of the counter all lanes share.

@@ -102,6 +102,15 @@ struct Stages {
                                              const RayQueue<Real>&, const LobeQueue<Real>&, const PickQueue<Real>&,
                                              const ShadowQueue<Real>&);
     ConnectCaustic connect_caustic[2];  ///< by Response
+    using PickPoints = std::uint32_t (*)(const CausticContext<Real>&, Range, const RayQueue<Real>&,
+                                         const PickQueue<Real>&);
+    PickPoints pick_point_caustics[2];  ///< by Response
+    using ConnectPoints = std::uint32_t (*)(const CausticContext<Real>&, std::uint32_t chords, std::uint32_t light,
+                                            Range picked, const RayQueue<Real>&, const LobeQueue<Real>&,
+                                            const PickQueue<Real>&, const ShadowQueue<Real>&);
+    ConnectPoints connect_point_caustic[2];  ///< by Response
+    void (*follow_point_caustic)(const CausticContext<Real>&, std::uint32_t chords, std::uint32_t light,
+                                 std::uint32_t event, const ShadowQueue<Real>&, std::uint32_t count);
     using Unblocked = std::uint32_t (*)(const SphereTable<Real>&, const ShadowQueue<Real>&, std::uint32_t count,
                                         std::uint32_t target);
     Unblocked unblocked, unblocked_coherent, unblocked_tree;

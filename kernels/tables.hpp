@@ -172,6 +172,21 @@ struct CausticGroup {
     Real rate;  ///< how often, over what a vertex knows of the ball (caustic.hpp)
 };
 
+/// Smooth spheres that point lights may be seen over: the leaves of a binary tree, by which a vertex chooses one. Node
+/// 1 is the root, and nodes 2k and 2k + 1 are below node k; leaves are the last 2^levels.
+template <class Real>
+struct SpheresOverPoints {
+    std::uint32_t levels = 0;  ///< below the root
+    bool obstructed = false;   ///< some other surface may cut chords within some of them
+    const Real* cx = nullptr;  ///< by node: a sphere around all spheres below it
+    const Real* cy = nullptr;
+    const Real* cz = nullptr;
+    const Real* reach = nullptr;           ///< its radius
+    const Real* area = nullptr;            ///< sum of their squared radii; 0 where there is none
+    const WordOf<Real>* sphere = nullptr;  ///< by leaf
+    Real rate = 0;                         ///< how often one is asked, over what may come of it
+};
+
 /// All that are sampled.
 template <class Real>
 struct CausticTable {
@@ -179,6 +194,7 @@ struct CausticTable {
     const Caustic<Real>* entries = nullptr;
     const CausticGroup<Real>* group = nullptr;
     Real carried = 1;  ///< what an event leaves of the throughput, about: by that, later vertices sample less often
+    SpheresOverPoints<Real> over_points{};  ///< null columns without Needs::point_caustics
 };
 
 /// The radiance of the enclosing volume.

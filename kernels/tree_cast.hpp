@@ -188,7 +188,9 @@ template <class V>
 std::uint32_t unblocked_tree(const Spheres<V>& spheres, const Shadows<V>& queue, std::uint32_t count,
                              std::uint32_t target) {
     KeepUnblocked<V> deliver{queue};
-    shadow_in_tree<V>(spheres, queue, count, target, deliver);
+    with_target(queue, target, [&](const auto& ends) ORRERY_INLINE_LAMBDA {
+        shadow_in_tree<V>(spheres, queue, count, ends, deliver);
+    });
     return deliver.size;
 }
 

@@ -8,6 +8,7 @@
 
 #include "film/error.hpp"
 #include "scene/read.hpp"
+#include "scene/settings.hpp"
 #include "wavefront/render.hpp"
 
 namespace orrery::tradeoff {
@@ -89,6 +90,10 @@ std::vector<Cell> cells_of(const Subject& subject, std::size_t index, double pro
     std::vector<Cell> cells;
     std::vector<std::pair<Isa, std::vector<Rgb>>> seen;
     for (const Variant& variant : all_variants()) {
+        const bool another_image = std::ranges::any_of(all_settings(), [&](const Setting& setting) {
+            return setting.but_for_point_lights && variant.chooses("--" + std::string(setting.option));
+        });
+        if (another_image && !subject.scene.point_lights.empty()) continue;
         const Setup setup = variant.setup(subject.usual);
         // Passes are even as long as there are few samples, and still not the same.
         const bool in_passes = setup.taking != Taking::at_once;

@@ -23,21 +23,6 @@ bool smooth(const Scene& scene, const Primitive& p) {
     return kernels::traits_of(scattering(scene, p)).response == kernels::Response::none;
 }
 
-bool obstructed(const Scene& scene, std::uint32_t ball) {
-    const Primitive& b = scene.primitives[ball];
-    for (std::uint32_t i = 0; i < scene.primitives.size(); ++i) {
-        const Primitive& p = scene.primitives[i];
-        const double apart = glm::length(p.centre - b.centre);
-        const bool around = apart + b.radius < p.radius * (1 - 1e-5);
-        if (i != ball && apart < (b.radius + p.radius) * (1 + 1e-5) && !around) return true;
-    }
-    return false;
-}
-
-}  // namespace
-
-namespace {
-
 /// Lights, and balls, that are looked at: plans of many spheres take time in proportion to their number.
 constexpr std::size_t most_lamps = 64, most_balls = 4, most_of_ball = 12;
 /// Samples of a ball from next to it, about, where all light on it is that of its caustics.
@@ -62,6 +47,17 @@ Indices primitives_where(const Scene& scene, const Holds& holds) {
     for (std::uint32_t i = 0; i < scene.primitives.size(); ++i)
         if (holds(scene.primitives[i])) list.push_back(i);
     return list;
+}
+
+bool obstructed(const Scene& scene, std::uint32_t ball) {
+    const Primitive& b = scene.primitives[ball];
+    for (std::uint32_t i = 0; i < scene.primitives.size(); ++i) {
+        const Primitive& p = scene.primitives[i];
+        const double apart = glm::length(p.centre - b.centre);
+        const bool around = apart + b.radius < p.radius * (1 - 1e-5);
+        if (i != ball && apart < (b.radius + p.radius) * (1 + 1e-5) && !around) return true;
+    }
+    return false;
 }
 
 /// The lamp's light on the ball, in no unit.
@@ -94,12 +90,24 @@ std::vector<PlannedCaustic> caustics_over(const Scene& scene, std::uint32_t ball
 
 }  // namespace
 
+Indices smooth_spheres(const Scene& scene) {
+    return primitives_where(scene, [&](const Primitive& p) { return smooth(scene, p); });
+}
+
+bool any_obstructed(const Scene& scene, const Indices& balls) {
+    constexpr std::size_t most_pairs = 10'000'000;
+    if (balls.size() > most_pairs / scene.primitives.size()) return true;
+    return std::ranges::any_of(balls, [&](std::uint32_t ball) {
+        return scattering(scene, scene.primitives[ball]) != Scattering::specular && obstructed(scene, ball);
+    });
+}
+
 std::vector<PlannedCaustic> plan_caustics(const Scene& scene) {
     const auto& p = scene.primitives;
     const Indices lamps = greatest(primitives_where(scene, emits), most_lamps, [&](std::uint32_t i) {
         return brightest(*p[i].emission) * p[i].radius * p[i].radius;
     });
-    Indices balls = primitives_where(scene, [&](const Primitive& ball) { return smooth(scene, ball); });
+    Indices balls = smooth_spheres(scene);
     std::vector<double> strength(p.size());
     for (const std::uint32_t b : balls)
         for (const std::uint32_t l : lamps) strength[b] += light_on(p[b], p[l]) * p[b].radius * p[b].radius;

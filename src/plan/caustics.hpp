@@ -1,4 +1,5 @@
-// Which caustics are sampled on purpose: light of an area light over one smooth sphere, for path tracing.
+// Which caustics are sampled on purpose: light of an area light over one smooth sphere, for path tracing. And which
+// spheres point lights are looked for in.
 #pragma once
 
 #include <vector>
@@ -20,6 +21,13 @@ struct PlannedCaustic {
 /// Those worth their time, ball by ball, the strongest first. Decided by the scene's geometry and powers alone. A lamp
 /// that touches, holds or lies within a ball has none with it.
 std::vector<PlannedCaustic> plan_caustics(const Scene& scene);
+
+/// Primitives that are mirrors, or dielectrics without roughness.
+std::vector<std::uint32_t> smooth_spheres(const Scene& scene);
+
+/// Whether some surface may cut the chords within one of `balls`, smooth spheres of the scene. Errs on the side of yes,
+/// where there are too many pairs to look at.
+bool any_obstructed(const Scene& scene, const std::vector<std::uint32_t>& balls);
 
 /// What an event at a vertex that samples them leaves of a path's throughput, about; in (0, 1].
 double carried_on(const Scene& scene);

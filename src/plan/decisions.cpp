@@ -86,6 +86,14 @@ std::vector<Decision> Plan::decisions() const {
            : !s.caustics  ? "switched off"
            : !n.competing ? "only where light samples compete with scattering"
                           : "no smooth sphere stands apart from a light");
+    decide("caustics: point lights", n.point_caustics,
+           n.point_caustics ? fmt::format("over {}, one asked at a vertex; what comes over two or more is left out",
+                                          counted(smooth_, "smooth sphere"))
+           : n.integrator != Integrator::path_tracing ? "only path tracing has them"
+           : n.connect_point == 0                     ? "no surface samples a point light"
+           : smooth_ == 0                             ? "no sphere is a mirror or smooth glass"
+           : s.depth < 2                              ? "no path scatters twice"
+                                                      : "switched off: that light is left out");
     const auto lights = sampled_lights();
     decide("shadow: light choice", n.one_light,
            lights == 0                            ? "no light is sampled"

@@ -83,6 +83,7 @@ void Plan::plan_tables(unsigned threads) {
     const auto fill = [&]<class Real>(Real) {
         auto& tables = tables_.emplace<Tables<Real>>(scene_, frame_, unit_, order, std::move(tree));
         if (needs_.caustics) tables.sample_caustics(scene_, unit_, order, caustics_);
+        if (needs_.point_caustics) tables.look_over(scene_, order, smooth_spheres(scene_));
         if (!needs_.one_light) return;
         if (needs_.connect_area != 0) tables.choose_lights(scene_, true);
         if ((needs_.connect_point & ~needs_.connect_area) != 0) tables.choose_lights(scene_, false);
@@ -128,6 +129,8 @@ void Plan::plan_needs() {
         caustics_ = plan_caustics(scene_);
         needs_.caustics = !caustics_.empty();
     }
+    smooth_ = smooth_spheres(scene_).size();
+    needs_.point_caustics = needs_.connect_point != 0 && s.caustics && s.depth > 1 && smooth_ > 0;
     needs_.one_light = s.light_choice != LightChoice::all && sampled_lights() > 1;
     needs_.roulette = s.roulette && s.depth > s.roulette_from;
     needs_.eta_scale = needs_.roulette && dielectric != 0;

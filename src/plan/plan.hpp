@@ -30,6 +30,7 @@ struct Needs {
     bool one_light = false;           ///< a vertex samples one light of several
     bool exact = false;               ///< diffuse vertices take area lights in closed form where there is one
     bool caustics = false;            ///< vertices sample light that comes over one smooth sphere
+    bool point_caustics = false;      ///< vertices look for point lights over smooth spheres
     bool competing = false;           ///< light samples and scattering share the work (mis)
     bool lights_only = false;         ///< what rays from vertices that sample area lights run into counts for nothing
     bool scattering_pdf = false;      ///< rays carry the density that made them
@@ -106,6 +107,7 @@ private:
     std::size_t nodes_ = 0;                        ///< of the tree
     std::size_t emitters_ = 0, point_lights_ = 0;  ///< that are switched on
     std::vector<PlannedCaustic> caustics_;
+    std::size_t smooth_ = 0;  ///< spheres, for path tracing
     std::variant<std::monostate, Tables<float>, Tables<double>> tables_;
 };
 

@@ -221,6 +221,27 @@ void Tables<Real>::sample_caustics(const Scene& scene, const LengthUnit& in, con
                 f(carried_on(scene))};
 }
 
+template <class Real>
+void Tables<Real>::look_over(const Scene& scene, const std::vector<std::uint32_t>& order,
+                             const std::vector<std::uint32_t>& balls) {
+    // A higher one costs time, a lower one noise: at 1 and 4 the efficiency of scenes 1 and 7, path traced, was 1.2 and
+    // 0.85 times that at 2, where such light is all the noise 0.5 and 1.6 times.
+    constexpr Real often = 2;
+    std::vector<std::uint32_t> places;
+    const std::vector<bool> wanted = [&] {
+        std::vector<bool> list(order.size());
+        for (const std::uint32_t ball : balls) list[ball] = true;
+        return list;
+    }();
+    for (std::uint32_t i = 0; i < order.size(); ++i)
+        if (wanted[order[i]]) places.push_back(i);
+    sphere_choice_ = SphereChoice<Real>(spheres, places);
+    sphere_choice_.put_into(caustics.over_points);
+    caustics.over_points.obstructed = any_obstructed(scene, balls);
+    caustics.over_points.rate = often;
+    caustics.carried = static_cast<Real>(carried_on(scene));
+}
+
 template class Tables<float>;
 template class Tables<double>;
 

@@ -7,6 +7,7 @@
 #include "kernels/tables.hpp"
 #include "plan/caustics.hpp"
 #include "plan/light_choice.hpp"
+#include "plan/sphere_choice.hpp"
 #include "plan/tree.hpp"
 #include "plan/unit.hpp"
 #include "scene/scene.hpp"
@@ -41,6 +42,10 @@ public:
     void sample_caustics(const Scene& scene, const LengthUnit& unit, const std::vector<std::uint32_t>& order,
                          const std::vector<PlannedCaustic>& planned);
 
+    /// Lets vertices look for point lights over the primitives `balls`; to be called behind sample_caustics.
+    void look_over(const Scene& scene, const std::vector<std::uint32_t>& order,
+                   const std::vector<std::uint32_t>& balls);
+
     kernels::CausticTable<Real> caustics;
     kernels::CameraTable<Real> camera{};
     kernels::SphereTable<Real> spheres;
@@ -69,6 +74,7 @@ private:
     std::array<std::vector<Word>, 1> light_words_;       // sphere
     std::vector<kernels::Caustic<Real>> caustics_;
     std::vector<kernels::CausticGroup<Real>> caustic_groups_;
+    SphereChoice<Real> sphere_choice_;
     std::array<ChoiceColumns<Real>, 2> choices_;       // without area lights, with them
     std::array<kernels::LightTable<Real>, 2> lights_;  // the same
 };

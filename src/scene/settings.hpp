@@ -34,6 +34,7 @@ struct Setting {
     std::uint32_t low = 0, high = 0;           ///< of each number
     bool required = false;                     ///< a scene must say it; else RenderSettings{} has the default
     bool same_expectation = false;             ///< whatever its value: it trades time for noise
+    bool but_for_point_lights = false;         ///< it changes what these send, in scenes that have some
     std::string_view meaning = {};             ///< a sentence without its full stop
     SettingMember member = {};                 ///< what it is of RenderSettings
     /// Whether the image can depend on it, the other settings being as they are.

@@ -33,6 +33,7 @@ void trace_paths(Wave<Real>& w) {
         for (const Scattering kind : w.pipeline.kinds) w.scatter(kind, runs, bounce);
         w.direct_lighting(runs, bounce);
         w.caustics(runs, bounce);
+        w.point_caustics(runs, bounce);
         if (bounce + 1 == depth) {
             if (!w.pipeline.emission) break;
             if (needs.lights_only) end(runs, needs.connect_area);

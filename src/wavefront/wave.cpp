@@ -1,7 +1,6 @@
-#include "wavefront/wave.hpp"
-
-#include <algorithm>
 #include <utility>
+
+#include "wavefront/wave_call.hpp"
 
 namespace orrery {
 
@@ -35,26 +34,6 @@ constexpr StageInfo roulette_info{"roulette", Stage::roulette, slot_part | ray_p
 constexpr StageInfo branch_info{"branch", Stage::shade, 0, 0};
 constexpr StageInfo resume_info{"resume", Stage::roulette, 0, 0};
 
-/// Bytes of a record of the queue, absent fields left out.
-template <class Queue>
-std::uint32_t record_bytes(const Queue& queue) {
-    std::size_t sum = 0;
-    Queue::each_field([&](const char*, auto field) { sum += queue.*field != nullptr ? sizeof(*(queue.*field)) : 0; });
-    return static_cast<std::uint32_t>(sum);
-}
-
-/// Bytes of so many numbers or words.
-template <class Real>
-constexpr std::uint32_t words(std::uint32_t n) {
-    return n * static_cast<std::uint32_t>(sizeof(Real));
-}
-
-Runs only(const Range& run) {
-    Runs runs;
-    runs.run[0] = run;
-    return runs;
-}
-
 /// What builds a scattering stage's context on some queues; it outlives the wave.
 template <class Real>
 auto scattering_on(const Wave<Real>& w, std::uint32_t bounce) {
@@ -64,34 +43,7 @@ auto scattering_on(const Wave<Real>& w, std::uint32_t bounce) {
     };
 }
 
-/// The same for the stages of caustics.
-template <class Real>
-auto caustics_on(const Wave<Real>& w, std::uint32_t bounce) {
-    return [&tables = w.tables, seed = w.plan.settings().seed, bounce](const WaveStorage<Real>& q) {
-        return kernels::CausticContext<Real>{
-            tables.spheres, tables.materials, tables.lights(true), q.slots, tables.caustics, seed, bounce};
-    };
-}
-
 }  // namespace
-
-template <class Real>
-template <class Make>
-Runs Wave<Real>::call(const StageCall& what, const Make& make) {
-    const std::size_t bounce = std::min<std::size_t>(what.bounce, profile_bounces - 1);
-    StageTicks& to = counters.ticks[bounce][static_cast<std::size_t>(what.stage.counted)];
-    const std::uint32_t rays = what.records.count;
-    const std::uint64_t start = tick_count();
-    const Runs left = observer ? observer(what, make) : make(stages, storage);
-    to.ticks += tick_count() - start;
-    to.rays += what.stage.again ? 0 : rays;
-    to.bytes += std::uint64_t{rays} * (what.bytes + (left.moved ? what.moved_bytes : 0));
-    if (what.lanes != 0) {
-        to.lanes += std::uint64_t{(rays + what.lanes - 1) / what.lanes} * what.lanes;
-        to.filled += rays;
-    }
-    return left;
-}
 
 template <class Real>
 std::uint32_t Wave<Real>::generate() {
@@ -222,15 +174,17 @@ void Wave<Real>::light(Scattering kind, const kernels::LightTable<Real>& lights,
 template <class Real>
 void Wave<Real>::shadow(std::uint32_t rays, std::uint32_t target, std::uint32_t bounce) {
     if (rays == 0) return;
+    // Only where vertices choose their lights do shadow rays differ in what they end on.
+    const bool alike = target != kernels::no_sphere || !plan.needs().one_light;
     call({.stage = shadow_info,
           .bounce = bounce,
           .records = {0, rays},
           .bytes = record_bytes(storage.shadows) + 2 * words<Real>(4),
           .lanes = pipeline.sphere_step,
           .target = target},
-         [&spheres = tables.spheres, stage = pipeline.shadow, rays, target](const auto& s, auto& q) {
+         [&spheres = tables.spheres, stage = pipeline.shadow, rays, target, alike](const auto& s, auto& q) {
              auto queue = q.shadows;
-             if (target != kernels::no_sphere) queue.target = nullptr;
+             if (alike) queue.target = nullptr;
              (s.*stage)(spheres, queue, rays, target, q.slots);
              return only({0, rays});
          });

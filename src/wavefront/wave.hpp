@@ -60,6 +60,8 @@ struct Wave {
     void direct_lighting(const kernels::Runs& runs, std::uint32_t bounce);
     /// Vertices -> shadow queue -> over smooth spheres -> radiance, for every run that samples area lights.
     void caustics(const kernels::Runs& runs, std::uint32_t bounce);
+    /// The same towards point lights, for every run that samples those.
+    void point_caustics(const kernels::Runs& runs, std::uint32_t bounce);
     /// Kill, weigh, compact. Returns the number of survivors.
     std::uint32_t roulette(const kernels::Runs& runs, std::uint32_t bounce);
 
@@ -85,6 +87,8 @@ private:
     template <class Make>
     kernels::Runs call(const StageCall& what, const Make& make);
     void caustic(kernels::Response response, std::uint32_t which, std::uint32_t picked, std::uint32_t bounce);
+    void point_caustic(std::size_t response, const kernels::LightTable<Real>& lights, kernels::Range picked,
+                       std::uint32_t light, std::uint32_t bounce);
     /// Shadow rays -> radiance.
     void shadow(std::uint32_t rays, std::uint32_t target, std::uint32_t bounce);
     /// `lights`: a member of the plan's tables, which recorded calls refer to.

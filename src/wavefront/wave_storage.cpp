@@ -76,7 +76,7 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
     }
     if (needs.lobes) carver.queue(lobes, capacity);
     if (shades && (needs.connect_point | needs.connect_area) != 0) {
-        const bool targets = needs.one_light && needs.connect_area != 0;
+        const bool targets = (needs.one_light && needs.connect_area != 0) || needs.point_caustics;
         kernels::ShadowQueue<Real>::each_field([&](const char*, auto member) {
             using Queue = kernels::ShadowQueue<Real>;
             if constexpr (std::is_same_v<decltype(member), typename Queue::Word * Queue::*>) {
@@ -95,10 +95,8 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
             return true;
         });
     }
-    if (needs.caustics) {
-        carver.queue(slots.chains, padded);
-        carver.queue(picks, capacity);
-    }
+    if (needs.caustics) carver.queue(slots.chains, padded);
+    if (needs.caustics || needs.point_caustics) carver.queue(picks, capacity);
     if (needs.branches) {
         branches.slots = slot_count;
         carver.field(branches.height, padded);

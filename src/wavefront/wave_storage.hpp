@@ -30,7 +30,7 @@ public:
     kernels::ShadowQueue<Real> shadows{};
     kernels::RayQueue<Real>
         aside{};  ///< vertices whose light is not known in closed form; what `connect` reads of them
-    kernels::PickQueue<Real> picks{};  ///< null fields without Needs::caustics, as are the slots' chains
+    kernels::PickQueue<Real> picks{};  ///< null fields without caustics; the slots' chains without Needs::caustics
     kernels::BranchStack<Real> branches{};
     kernels::WordOf<Real>* live = nullptr;  ///< scratch of the stage `resume`, all zero
 

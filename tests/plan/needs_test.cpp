@@ -78,9 +78,30 @@ TEST(Needs, CausticsWhereASmoothSphereStandsApartFromALamp) {
     EXPECT_FALSE(caustics({specular, diffuse}, 3, [](RenderSettings& s) { s.integrator = Integrator::whitted; }));
 }
 
+TEST(Needs, PointCausticsWhereThereAreAPointLightAndASmoothSphere) {
+    const auto caustics = [](std::initializer_list<MaterialKind> kinds, bool light, auto change) {
+        Scene scene = world(kinds);
+        scene.point_lights.clear();
+        if (light) scene.point_lights.push_back({"point", {0, 9, 0}, {1, 1, 1}});
+        scene.settings.depth = 2;
+        change(scene.settings);
+        return needs_of(scene).point_caustics;
+    };
+    const auto as_is = [](RenderSettings&) {};
+    EXPECT_TRUE(caustics({specular, diffuse}, true, as_is));
+    EXPECT_TRUE(caustics({dielectric, translucent}, true, as_is));
+    EXPECT_FALSE(caustics({specular, diffuse}, false, as_is));
+    EXPECT_FALSE(caustics({glossy, translucent, diffuse}, true, as_is)) << "no smooth sphere";
+    EXPECT_FALSE(caustics({specular, dielectric}, true, as_is)) << "no surface that scatters";
+    EXPECT_FALSE(caustics({specular, diffuse}, true, [](RenderSettings& s) { s.caustics = false; }));
+    EXPECT_FALSE(caustics({specular, diffuse}, true, [](RenderSettings& s) { s.depth = 1; }));
+    EXPECT_FALSE(caustics({specular, diffuse}, true, [](RenderSettings& s) { s.integrator = Integrator::whitted; }));
+    EXPECT_TRUE(caustics({specular, diffuse}, true, [](RenderSettings& s) { s.transport = Transport::naive; }));
+}
+
 TEST(Needs, CausticsOfManyBallsInTimeInProportion) {
     const auto seconds = [](std::size_t balls) {
-        Scene scene = world({specular, diffuse});
+        Scene scene = world({dielectric, diffuse});
         scene.primitives[1].emission = glm::dvec3{1};
         scene.primitives[1].centre = {0, 1e6, 0};
         const Primitive ball = scene.primitives[0];
@@ -90,6 +111,14 @@ TEST(Needs, CausticsOfManyBallsInTimeInProportion) {
         }
         const std::clock_t start = std::clock();
         EXPECT_LE(plan_caustics(scene).size(), 12u);
+        std::vector<std::uint32_t> all = smooth_spheres(scene);
+        EXPECT_EQ(all.size(), balls);
+        any_obstructed(scene, all);
+        std::vector<float> column(all.size());
+        for (std::size_t i = 0; i < all.size(); ++i) column[i] = static_cast<float>(3 * i);
+        kernels::SphereTable<float> spheres;
+        spheres.cx = spheres.cy = spheres.cz = spheres.radius = column.data();
+        EXPECT_GT(SphereChoice<float>(spheres, all).levels(), 10u);
         return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     };
     // Ten times as many would take a hundred times as long if each ball were held against all others.

@@ -69,16 +69,19 @@ private:
         bool emission_counted = false;  // at the previous vertex, by area_light
         for (std::uint32_t events = 0;; ++events) {
             const Hit hit = closest_hit(scene_.primitives, ray);
-            if (hit.sphere == nothing) return radiance + throughput * scene_.background;
+            const bool all = !options_.caustics_alone;
+            if (hit.sphere == nothing) return all ? radiance + throughput * scene_.background : radiance;
             const Vertex v(scene_, ray, hit);
-            if (v.primitive.emission && !emission_counted) radiance += throughput * *v.primitive.emission;
+            if (v.primitive.emission && !emission_counted && all) radiance += throughput * *v.primitive.emission;
             if (events == scene_.settings.depth) return radiance;
 
-            radiance += throughput * from_point_lights(v);
-            emission_counted = options_.next_event && v.diffuse();
-            if (emission_counted) radiance += throughput * from_area_lights(v, random);
             if (options_.caustics)
                 radiance += throughput * from_caustics(v, scene_.settings.depth - events - 1, random);
+            if (all) {
+                radiance += throughput * from_point_lights(v);
+                emission_counted = options_.next_event && v.diffuse();
+                if (emission_counted) radiance += throughput * from_area_lights(v, random);
+            }
             throughput *= scatter(v, ray, random);
             if (throughput == dvec3{0}) return radiance;
         }

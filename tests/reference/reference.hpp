@@ -21,6 +21,7 @@ struct Options {
     bool next_event = false;
     /// PT: diffuse, glossy and translucent vertices receive the light of point lights over one smooth sphere.
     bool caustics = true;
+    bool caustics_alone = false;  ///< and nothing else counts
     /// Such light is found by chance: so many directions per smooth sphere at every vertex, towards point lights that
     /// shine as spheres of this radius, in units of their distance from that smooth sphere. The mean is off by its
     /// fourth power (and where a sphere is nearer to the light than that), the variance grows with the inverse square.

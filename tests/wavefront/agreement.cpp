@@ -37,7 +37,9 @@ std::vector<Variant> path_variants(const Scene& scene) {
                                      {"sobol", with(mis, cone, true, Estimator::sobol)}};
     if (isa_supported(Isa::sse2)) variants.push_back({"SSE2", with(mis, cone, true, stratified), Isa::sse2});
     if (has_area_lights(scene)) {
-        variants.push_back({"no caustics", [](RenderSettings& s) { s.caustics = false; }});
+        // Without them point lights' are missing.
+        if (scene.point_lights.empty())
+            variants.push_back({"no caustics", [](RenderSettings& s) { s.caustics = false; }});
         variants.push_back({"mis, area", with(mis, area, true, uniform)});
         variants.push_back({"nee, cone", with(nee, cone, true, stratified)});
         variants.push_back({"nee, area, no roulette", with(nee, area, false, stratified)});
@@ -105,7 +107,7 @@ void expect_agreement_of(const std::vector<Variant>& variants, const Scene& scen
     const auto truth = reference::render(scene, {.samples = budget.reference_samples,
                                                  .block_size = budget.block_size,
                                                  .next_event = budget.next_event,
-                                                 .caustics = false,  // the kernels know none of point lights yet
+                                                 .caustics = scene.settings.caustics,
                                                  .post_process = false});
     const auto judge = [](const statistics::BlockImage& candidate, const statistics::BlockImage& expected,
                           const std::string& what) {
