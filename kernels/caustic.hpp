@@ -165,7 +165,7 @@ ORRERY_INLINE void each_interval(const Caustic<RealOf<V>>& caustic, const BallFr
     const F r(caustic.lamp_radius), far(1000 * caustic.lamp_radius), near(900 * caustic.lamp_radius);
     Turn<F> last{};
     F miss[2] = {F(0), F(0)};
-    for (std::uint32_t i = 0; i <= caustic_steps; ++i) {
+    for (std::uint32_t i = 0; i <= caustic.steps; ++i) {
         const auto& step = caustic.step[i];
         const Turn<F> turn = turn_at(step, frame);
         const F next[2] = {detail::miss_of<V>(frame, turn, F(step.s), far, false),
@@ -211,20 +211,43 @@ ORRERY_INLINE void each_interval(const Caustic<RealOf<V>>& caustic, const BallFr
     }
 }
 
-/// How often a vertex samples one of a ball's caustics: `rate` times the ball's apparent size and the cosine with the
-/// normal. 0 where geometry alone excludes them: the vertex within or on the ball, the ball below the horizon.
+/// How often a vertex would sample one of a ball's caustics: `rate` times the ball's apparent size and the cosine with
+/// the normal. 0 where geometry alone excludes them: the vertex within or on the ball, the ball below the horizon.
 template <class V>
-ORRERY_INLINE Floats<V> caustic_probability(const Caustic<RealOf<V>>& caustic, const Floats<V>& rate,
-                                            const Vec3Of<V>& p, const Vec3Of<V>& normal, const Words<V>& sphere) {
+ORRERY_INLINE Floats<V> caustic_demand(const Caustic<RealOf<V>>& caustic, const Floats<V>& rate, const Vec3Of<V>& p,
+                                       const Vec3Of<V>& normal, const Words<V>& sphere) {
     using F = Floats<V>;
     using U = Words<V>;
     const Vec3<F> to = Vec3<F>{F(caustic.cx), F(caustic.cy), F(caustic.cz)} - p;
     const F inverse = F(1) / root(dot(to, to));
     const F sine = F(caustic.radius) * inverse, cosine = dot(to, normal) * inverse;
-    const F q = rate * sine * sine * max(cosine, sine * F(0.5f));
+    const F demand = rate * sine * sine * max(cosine, sine * F(0.5f));
     const auto above =
         power_of_point(to, F(caustic.radius2)) > F(0) && cosine > F(0) - sine && !words_equal(sphere, U(caustic.ball));
-    return choose(above, min(q, F(1)), F(0));
+    return choose(above, demand, F(0));
+}
+
+/// The demands of a vertex by group, and their sum. It samples one caustic at most: one of a group with the probability
+/// of its demand over the sum, or over 1 if that is more.
+template <class V>
+struct CausticDemands {
+    Floats<V> of[most_caustic_groups];
+    Floats<V> sum;
+    ORRERY_INLINE Floats<V> all() const { return max(sum, Floats<V>(1)); }
+};
+
+template <class V>
+ORRERY_INLINE CausticDemands<V> caustic_demands(const CausticTable<RealOf<V>>& caustics, const Floats<V>& scale,
+                                                const Vec3Of<V>& p, const Vec3Of<V>& normal, const Words<V>& sphere) {
+    using F = Floats<V>;
+    CausticDemands<V> demands;
+    demands.sum = F(0);
+    for (std::uint32_t g = 0; g < caustics.groups; ++g) {
+        const auto& group = caustics.group[g];
+        demands.of[g] = caustic_demand<V>(caustics.entries[group.first], F(group.rate) * scale, p, normal, sphere);
+        demands.sum = demands.sum + demands.of[g];
+    }
+    return demands;
 }
 
 }  // namespace orrery::kernels

@@ -24,16 +24,15 @@ ORRERY_INLINE Real rough_scale(Real scale) {
     return response == Response::glossy ? 4 * scale : scale;
 }
 
-/// Chooses the vertices of a run that sample a caustic of the group, and which one. Returns how many.
+/// Chooses the vertices of a run that sample a caustic, and which. Returns how many.
 template <class V, Response response>
-std::uint32_t pick_caustics(const CausticContext<RealOf<V>>& context, std::uint32_t group, Range run,
-                            const Rays<V>& rays, const Picks<V>& picks) {
+std::uint32_t pick_caustics(const CausticContext<RealOf<V>>& context, Range run, const Rays<V>& rays,
+                            const Picks<V>& picks) {
     using F = Floats<V>;
     using U = Words<V>;
-    const auto& of = context.caustics.group[group];
-    const auto* const members = context.caustics.entries + of.first;
-    const F rate(of.rate * rough_scale<response>(caustic_scale(context.caustics, context.bounce)));
-    const RandomKey key{context.seed, Dimension::caustic, group};
+    const auto& caustics = context.caustics;
+    const F scale(rough_scale<response>(caustic_scale(caustics, context.bounce)));
+    const RandomKey key{context.seed, Dimension::caustic, 0};
     const bool sobol = context.slots.sobol.x != nullptr;
     std::uint32_t picked = 0;
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
@@ -41,22 +40,36 @@ std::uint32_t pick_caustics(const CausticContext<RealOf<V>>& context, std::uint3
         const auto in_run = first_lanes<V>(run.count - n);
         const auto p = load3<V>(rays.ox + i, rays.oy + i, rays.oz + i);
         const U departed = choose(in_run, load<U>(rays.departed + i), U(0u));
-        const F q = caustic_probability<V>(*members, rate, p, departed_normal<V>(context.spheres, p, departed),
-                                           departed & U(no_sphere));
-        if (!any(q > F(0))) continue;
+        const auto demands = caustic_demands<V>(caustics, scale, p, departed_normal<V>(context.spheres, p, departed),
+                                                departed & U(no_sphere));
+        if (!any(demands.sum > F(0))) continue;
         const F x = random_now<V>(sobol, key, load<U>(rays.pixel + i), load<U>(rays.sample + i), U(context.bounce)).x;
         const auto dead = carries_nothing(load3<V>(rays.tr + i, rays.tg + i, rays.tb + i));
-        const std::uint32_t chosen = bits(x < q && in_run && !dead);
+        const F all = demands.all();
+        F rest = x * all;
+        const std::uint32_t chosen = bits(rest < demands.sum && in_run && !dead);
         if (chosen == 0) continue;
-        U which(of.first);
-        RealOf<V> below = 0;
-        for (std::uint32_t m = 0; m + 1 < of.count; ++m) {
-            below += members[m].share;
-            which = choose(x < q * F(below), which, U(of.first + m + 1));
+        U which(0u);
+        F demand(0);
+        auto open = rest < demands.sum;
+        for (std::uint32_t g = 0; g < caustics.groups; ++g) {
+            const auto& of = caustics.group[g];
+            // Where rounding leaves none, the last.
+            const auto here = open && demands.of[g] > F(0);
+            if (any(here)) {
+                demand = choose(here, demands.of[g], demand);
+                F bound(0);
+                for (std::uint32_t m = 0; m < of.count; ++m) {
+                    which = choose(here && rest >= bound, U(of.first + m), which);
+                    bound = mul_add(demands.of[g], F(caustics.entries[of.first + m].share), bound);
+                }
+            }
+            open = open && rest >= demands.of[g];
+            rest = rest - demands.of[g];
         }
         compress_store<V>(picks.place + picked, consecutive<V>(i), chosen);
         compress_store<V>(picks.caustic + picked, which, chosen);
-        compress_store<V>(picks.probability + picked, q, chosen);
+        compress_store<V>(picks.probability + picked, demand / all, chosen);
         picked += static_cast<std::uint32_t>(std::popcount(chosen));
     }
     return picked;
@@ -72,7 +85,7 @@ std::uint32_t connect_caustic(const CausticContext<RealOf<V>>& context, std::uin
     using F = Floats<V>;
     using U = Words<V>;
     const auto& caustic = context.caustics.entries[which];
-    const RandomKey key{context.seed, Dimension::caustic, caustic.group};
+    const RandomKey key{context.seed, Dimension::caustic, 0};
     const bool sobol = context.slots.sobol.x != nullptr;
     // Those of this caustic, gathered until they fill a vector.
     alignas(64) WordOf<Real> place[2 * V::count] = {};
@@ -172,6 +185,39 @@ void follow_caustic(const Spheres<V>& spheres, const Caustic<RealOf<V>>& caustic
         const auto carried = load3<V>(queue.r + i, queue.g + i, queue.b + i);
         save3<V>(queue.r + i, queue.g + i, queue.b + i, choose(meets, carried, Vec3<F>{F(0), F(0), F(0)}));
     }
+}
+
+/// Moves every segment of the queue, which ends on a glossy ball, on to the lamp, by a direction of the ball's lobe
+/// there that reaches it. Returns how many there are.
+template <class V>
+std::uint32_t follow_lobe(const CausticContext<RealOf<V>>& context, const Caustic<RealOf<V>>& caustic,
+                          std::uint32_t count, const Shadows<V>& queue) {
+    using F = Floats<V>;
+    using U = Words<V>;
+    const auto& slots = context.slots;
+    const Sphere<F> ball{{F(caustic.cx), F(caustic.cy), F(caustic.cz)}, F(caustic.radius), F(caustic.radius2)};
+    const Sphere<F> lamp = broadcast_sphere<V>(context.spheres, caustic.lamp);
+    const RandomKey key{context.seed, Dimension::caustic_lobe, 0};
+    std::uint32_t size = 0;
+    for (std::uint32_t i = 0; i < count; i += V::count) {
+        const auto in_queue = first_lanes<V>(count - i);
+        const auto o = load3<V>(queue.ox + i, queue.oy + i, queue.oz + i);
+        const auto d = load3<V>(queue.dx + i, queue.dy + i, queue.dz + i);
+        const Vec3<F> normal = unit(along(o - ball.centre, F(1) / load<F>(queue.inverse_t_max + i), d));
+        const F cosine = min(max(F(0) - dot(normal, d), F(0)), F(1));
+        const Vec3<F> position = along(ball.centre, ball.radius, normal);
+        const U slot = choose(in_queue, load<U>(queue.slot + i), U(0u));
+        const U pixel = gather<U>(slots.pixel, slot), sample = gather<U>(slots.sample, slot);
+        const auto random = random_now<V>(slots.sobol.x != nullptr, key, pixel, sample, U(context.bounce));
+        const auto on = sample_lobe_in_cap<V>(position, lamp, unit(reflected(d, normal, cosine)), normal, cosine,
+                                              F(caustic.roughness), random.x, random.y);
+        const std::uint32_t reaching = bits(in_queue && on.sample.valid && !(on.factor <= F(0)));
+        if (reaching == 0) continue;
+        size = append_shadow<V>(queue, size, position, on.sample.direction, on.sample.inverse_distance,
+                                load3<V>(queue.r + i, queue.g + i, queue.b + i) * on.factor, U(caustic.ball), slot,
+                                reaching);
+    }
+    return size;
 }
 
 }  // namespace orrery::kernels

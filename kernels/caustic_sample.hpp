@@ -13,8 +13,9 @@ ORRERY_INLINE Floats<V> share_of_events(std::uint32_t chords, const Floats<V>& e
     using F = Floats<V>;
     const F reflected = interface_at<V>(cosine, eta).reflectance;
     if (chords == 0) return reflected;
-    const F through = (F(1) - reflected) * (F(1) - reflected);
-    return chords == 1 ? through : through * reflected;
+    F share = (F(1) - reflected) * (F(1) - reflected);
+    for (std::uint32_t m = 1; m < chords; ++m) share = share * reflected;
+    return share;
 }
 
 /// The same for impact parameter s; of a mirror 1.

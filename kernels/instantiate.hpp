@@ -44,6 +44,7 @@ constexpr Stages<RealOf<V>> make_stages(Isa isa) {
     s.shadow_coherent = shadow_coherent<S>;
     s.shadow_tree = shadow_tree<V>;
     s.caustic_emission = caustic_emission<V>;
+    s.weigh_shadows = weigh_shadows<V>;
     s.pick_caustics[0] = pick_caustics<V, Response::diffuse>;
     s.pick_caustics[1] = pick_caustics<V, Response::glossy>;
     s.connect_caustic[0] = connect_caustic<V, Response::diffuse>;
@@ -57,6 +58,7 @@ constexpr Stages<RealOf<V>> make_stages(Isa isa) {
     s.connect_point_caustic[1] = connect_point_caustic<W, Response::glossy>;
     s.follow_point_caustic = follow_point_caustic<W>;
     s.follow_caustic = follow_caustic<W>;
+    s.follow_lobe = follow_lobe<W>;
     s.roulette = roulette<W>;
     s.expire = expire<V>;
     s.branch = branch<V>;

@@ -135,10 +135,10 @@ struct ChainTable {
         visit("pdf", &ChainTable::pdf);
     }
 };
-inline constexpr std::uint32_t chain_chords = 3;  ///< mask; three or more count as three
-inline constexpr std::uint32_t chain_open = 4;    ///< the path is within the ball
-inline constexpr std::uint32_t chain_closed = 8;  ///< it has left it
-inline constexpr std::uint32_t chain_begun = 16;  ///< it has met it, what happened there is still open
+inline constexpr std::uint32_t chain_chords = 7;   ///< mask; seven or more count as seven
+inline constexpr std::uint32_t chain_open = 8;     ///< the path is within the ball
+inline constexpr std::uint32_t chain_closed = 16;  ///< it has left it
+inline constexpr std::uint32_t chain_begun = 32;   ///< it has met it, what happened there is still open
 
 /// Vertices that sample a caustic, or look for point lights over a sphere.
 template <class Real>

@@ -12,11 +12,12 @@ namespace orrery::kernels {
 
 /// What a block of four random numbers is for. One call of `random_block` serves one of these.
 enum class Dimension : std::uint32_t {
-    camera,              ///< x, y: position in the pixel's cell; z, w: point on the lens
-    scattering,          ///< x, y: direction; z: which lobe
-    roulette,            ///< x: survive or not
-    light,               ///< light + i: the point or direction sampled for light i
-    caustic = 1u << 30,  ///< caustic + i, for group i. x: sampled or not, and which; y, z: impact parameter; w: azimuth
+    camera,                    ///< x, y: position in the pixel's cell; z, w: point on the lens
+    scattering,                ///< x, y: direction; z: which lobe
+    roulette,                  ///< x: survive or not
+    light,                     ///< light + i: the point or direction sampled for light i
+    caustic = 1u << 30,        ///< x: sampled or not, and which; y, z: impact parameter; w: azimuth
+    caustic_lobe = 3u << 30,   ///< x, y: direction from a glossy ball to the lamp
     point_caustic = 1u << 31,  ///< point_caustic + i: decisions 4 i to 4 i + 3 about which sphere to ask
 };
 
@@ -24,7 +25,7 @@ enum class Dimension : std::uint32_t {
 struct RandomKey {
     std::uint32_t seed = 0;
     Dimension dimension = Dimension::camera;
-    std::uint32_t index = 0;  ///< which light or group of caustics
+    std::uint32_t index = 0;  ///< which light
 };
 
 template <class U>
@@ -87,9 +88,9 @@ ORRERY_INLINE RandomNumbers<Floats<V>> random_block(const RandomKey& key, const 
 // shuffles the *index* by a hash in which bits change only by those above them, so that the first 2^m numbers of
 // samples become such indices, in an order by chance, of a net by chance. Pairs of dimensions shuffled apart make
 // points of any number of dimensions. The camera's place in the pixel, on which all edges depend, is scrambled as Art
-// B. Owen does, too
-// ("Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences", 1995): every bit of a number is flipped or not, by chance,
-// given the bits above it. To scramble all numbers would take twice as long and was not seen to leave less error.
+// B. Owen does, too ("Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences", 1995): every bit of a number is flipped or
+// not, by chance, given the bits above it. To scramble all numbers would take twice as long and was not seen to leave
+// less error.
 //
 // A pixel has two sequences, shuffled apart: samples of even number run through one, of odd number through the other.
 // Of equally many of both the difference tells the error of the sum without bias (film/contrasts.hpp), which no single

@@ -102,7 +102,8 @@ void scatter(const ScatterContext<RealOf<V>>& context, Range run, const Rays<V>&
     const RandomKey key{context.seed, Dimension::scattering, 0};
     if constexpr (dimensions > 0) draw<V, dimensions>(context.slots, rays, run, key, context.bounce);
     constexpr bool smooth = traits_of(kind).response == Response::none;
-    const bool noted = smooth && context.slots.chains.state != nullptr;
+    constexpr bool on_chains = smooth || kind == Scattering::glossy;
+    const bool noted = on_chains && context.slots.chains.state != nullptr;
     if (noted) begin_chains<V>(context.slots.chains, run, rays, hits);
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
         const std::uint32_t i = run.begin + n;
@@ -131,7 +132,9 @@ void scatter(const ScatterContext<RealOf<V>>& context, Range run, const Rays<V>&
                                 weight_of<V, kind>(context.materials, in.vertex.material, out);
         save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, choose(in.live, throughput, none));
     }
-    if (noted) note_events<V, traits_of(kind).is_interface>(context, run, rays, hits);
+    if constexpr (smooth) {
+        if (noted) note_events<V, traits_of(kind).is_interface>(context, run, rays, hits);
+    }
 }
 
 }  // namespace orrery::kernels

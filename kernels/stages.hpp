@@ -76,6 +76,8 @@ struct Stages {
                               const PickQueue<Real>&);
     void (*caustic_emission)(const CausticContext<Real>&, std::uint32_t count, const RayQueue<Real>&,
                              const HitQueue<Real>&, const PickQueue<Real>&);
+    void (*weigh_shadows)(const CausticContext<Real>&, std::uint32_t light, std::uint32_t count,
+                          const ShadowQueue<Real>&);
     Runs (*sort_by_scattering)(const SphereTable<Real>&, std::uint32_t kinds, const RayQueue<Real>&,
                                const HitQueue<Real>&, std::uint32_t count, const RayQueue<Real>& sorted_rays,
                                const HitQueue<Real>& sorted_hits);
@@ -95,8 +97,8 @@ struct Stages {
                             std::uint32_t target, const SlotTable<Real>&);
     Shadow shadow, shadow_coherent, shadow_tree;
 
-    using PickCaustics = std::uint32_t (*)(const CausticContext<Real>&, std::uint32_t group, Range,
-                                           const RayQueue<Real>&, const PickQueue<Real>&);
+    using PickCaustics = std::uint32_t (*)(const CausticContext<Real>&, Range, const RayQueue<Real>&,
+                                           const PickQueue<Real>&);
     PickCaustics pick_caustics[2];  ///< by Response
     using ConnectCaustic = std::uint32_t (*)(const CausticContext<Real>&, std::uint32_t which, std::uint32_t picked,
                                              const RayQueue<Real>&, const LobeQueue<Real>&, const PickQueue<Real>&,
@@ -116,6 +118,8 @@ struct Stages {
     Unblocked unblocked, unblocked_coherent, unblocked_tree;
     void (*follow_caustic)(const SphereTable<Real>&, const Caustic<Real>&, std::uint32_t event,
                            const ShadowQueue<Real>&, std::uint32_t count);
+    std::uint32_t (*follow_lobe)(const CausticContext<Real>&, const Caustic<Real>&, std::uint32_t count,
+                                 const ShadowQueue<Real>&);
 
     std::uint32_t (*roulette)(const SlotTable<Real>&, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs&,
                               const RayQueue<Real>&);

@@ -137,39 +137,46 @@ struct LightTable {
     const Real* inverse_probability = nullptr;
 };
 
-/// How many chords of light within a ball a Caustic may have: reflected off it, straight through, once around inside.
-inline constexpr std::uint32_t most_chords = 2;
-/// Steps of the impact parameter between which a Caustic is looked for.
-inline constexpr std::uint32_t caustic_steps = 24;
+/// How many chords of light within a ball a Caustic may have: reflected off it, straight through, and after
+/// one to three reflections inside.
+inline constexpr std::uint32_t most_chords = 4;
+/// The same where point lights are looked for.
+inline constexpr std::uint32_t most_point_chords = 2;
+/// Steps of the impact parameter between which a Caustic is looked for, at most.
+inline constexpr std::uint32_t most_caustic_steps = 24;
 
 /// Light of one area light that reaches a vertex over one smooth sphere, the ball, by a number of chords within it. All
 /// normals of a ball pass its centre, so that such a path stays in a plane and passes the centre at the same distance
-/// s, its impact parameter, before and after every event.
+/// s, its impact parameter, before and after every event. Over a glossy sphere light comes by its lobe: what is looked
+/// for is the mirrored direction, in a lamp as much larger as the lobe is wide.
 template <class Real>
 struct Caustic {
     std::uint32_t ball, light, lamp;  ///< sphere, light, and the light's sphere
-    std::uint32_t group;              ///< that of the ball
     std::uint32_t chords;             ///< <= most_chords
     bool obstructed;                  ///< some other surface may cut the chords
     Real cx, cy, cz, radius, radius2;
-    Real eta;  ///< of the ball, inside over outside; of a mirror without meaning
-    bool mirror;
-    Real wx, wy, wz;  ///< from the ball's centre to the lamp's
-    Real lamp_radius;
-    Real r, g, b;  ///< the lamp's radiance times what the ball's surface leaves of it, Fresnel's share apart
-    Real share;    ///< of the samples over its ball
+    Real eta;             ///< of the ball, inside over outside; of a mirror without meaning
+    bool mirror;          ///< smooth or not, it only reflects
+    Real roughness;       ///< of a glossy ball; 0: smooth
+    Real wx, wy, wz;      ///< from the ball's centre to the lamp's
+    Real lamp_radius;     ///< where directions are looked for
+    Real r, g, b;         ///< the lamp's radiance times what the ball's surface leaves of it, Fresnel's share apart
+    Real share;           ///< of the samples over its ball
+    std::uint32_t steps;  ///< <= most_caustic_steps
     /// At impact parameter s the events turn the direction; that angle less asin(s / distance) is what the vertex sees.
     struct Step {
         Real s, sine, cosine;
         Real share;  ///< Fresnel's, of all events
-    } step[caustic_steps + 1];
+    } step[most_caustic_steps + 1];
 };
 
-/// The caustics of one ball, `first` and those behind it. A vertex samples one of them at most.
+/// Balls whose caustics are sampled, at most.
+inline constexpr std::uint32_t most_caustic_groups = 8;
+/// The caustics of one ball, `first` and those behind it.
 template <class Real>
 struct CausticGroup {
     std::uint32_t first, count;
-    Real rate;  ///< how often, over what a vertex knows of the ball (caustic.hpp)
+    Real rate;  ///< how often they are sampled, over what a vertex knows of the ball (caustic.hpp)
 };
 
 /// Smooth spheres that point lights may be seen over: the leaves of a binary tree, by which a vertex chooses one. Node
@@ -187,7 +194,7 @@ struct SpheresOverPoints {
     Real rate = 0;                         ///< how often one is asked, over what may come of it
 };
 
-/// All that are sampled.
+/// All that are sampled. A vertex samples one of those of area lights at most.
 template <class Real>
 struct CausticTable {
     std::uint32_t count = 0, groups = 0;

@@ -257,9 +257,25 @@ def blocks(run):
             "slopes": slopes(run), "references": references(run)}
 
 
+def classes(facts, rows):
+    names = [name for name in in_order(row["class"] for row in rows) if name != "all"]
+    error = {(row["scene"], row["options"], row["class"]): float(row["mrse"]) for row in rows}
+    lines = []
+    for scene, options in in_order((row["scene"], row["options"]) for row in rows):
+        total = error[scene, options, "all"]
+        shares = [100 * error[scene, options, name] / total if total else 0 for name in names]
+        lines.append([scene, f"`{options}`" if options[0] == "-" else options, f"{total:.2g}",
+                      *(f"{share:.0f}" if share >= 0.5 else "" for share in shares)])
+    return f"{facts['processor']}, {facts['samples']} samples.\n\n" + table(["scene", "options", "MRSE x samples", *names], lines)
+
+
 def main(file):
     text = pathlib.Path(file).read_text()
-    run = Run(*parse(text))
+    facts, rows = parse(text)
+    if "class" in rows[0]:
+        publish("TRADEOFF.md", facts, {"classes.csv": text}, {"classes": classes(facts, rows)}, dict)
+        return
+    run = Run(facts, rows)
     publish("TRADEOFF.md", run.facts, {"tradeoff.csv": text}, blocks(run), lambda: plots(run))
     print(*false_claims(run), sep="\n", end="", file=sys.stderr)
 

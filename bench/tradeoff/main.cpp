@@ -9,8 +9,10 @@
 #include <numeric>
 #include <random>
 #include <thread>
+#include <tuple>
 
 #include "bench/results.hpp"
+#include "bench/tradeoff/classes.hpp"
 #include "bench/tradeoff/summary.hpp"
 
 namespace fs = std::filesystem;
@@ -21,7 +23,7 @@ namespace {
 
 struct Arguments {
     double seconds = 540;
-    bool quick = false;
+    bool quick = false, classes = false;
     double pixels = 64 * 64;
     fs::path scenes = "scenes", cache = "build/tradeoff";
     std::vector<std::string> names = {"assignment_01", "assignment_02",           "assignment_03",    "assignment_04",
@@ -108,6 +110,31 @@ void run(const Arguments& arguments, bool whole) {
     print(subjects, cells);
 }
 
+/// One line per class of path of each scene, as each technique against it joins in.
+void run_classes(const Arguments& arguments, bool whole) {
+    const Clock clock;
+    const std::uint32_t samples = arguments.quick ? 256 : 4096;
+    fmt::memory_buffer lines;
+    for (const std::string& name : arguments.names) {
+        const Scene scene = scene_of(arguments.scenes / (name + ".json"));
+        RenderSettings settings = usual_settings(scene.settings, arguments.pixels);
+        for (const auto& [options, sampling, caustics] :
+             {std::tuple("--light-sampling cone --caustics off", LightSampling::cone, false),
+              std::tuple("--caustics off", LightSampling::exact, false),
+              std::tuple("defaults", LightSampling::exact, true)}) {
+            settings.light_sampling = sampling, settings.caustics = caustics;
+            const ClassErrors errors = class_errors(scene, settings, samples);
+            const std::string start = fmt::format("{},{}", fs::path(name).filename().string(), options);
+            fmt::format_to(std::back_inserter(lines), "{},all,{:.4g}\n", start, errors.all);
+            for (std::size_t k = 0; k < class_names.size(); ++k)
+                fmt::format_to(std::back_inserter(lines), "{},{},{:.4g}\n", start, class_names[k], errors.of[k]);
+        }
+        fmt::print(stderr, "{} after {:.0f} s\n", name, clock.seconds());
+    }
+    bench::print_facts(whole, clock.seconds());
+    fmt::print("# samples: {}\nscene,options,class,mrse\n{}", samples, fmt::to_string(lines));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -115,6 +142,7 @@ int main(int argc, char** argv) {
     CLI::App app("Measures error against time for the options that trade one for the other.");
     app.add_option("--time", arguments.seconds, "Seconds to take, about; 540 unless told")->check(CLI::Range(5, 86400));
     app.add_flag("--quick", arguments.quick, "A tenth of the time, for trying it out");
+    app.add_flag("--classes", arguments.classes, "Instead: which classes of paths make the error");
     app.add_option("--pixels", arguments.pixels, "Of an image, about; 4096 unless told")
         ->check(CLI::Range(16, 1 << 20));
     app.add_option("--only", arguments.names, "Scenes, without .json")->delimiter(',');
@@ -124,7 +152,7 @@ int main(int argc, char** argv) {
     if (arguments.quick) arguments.seconds /= 10;
     const bool whole = !arguments.quick && app.count("--only") == 0;
     try {
-        run(arguments, whole);
+        (arguments.classes ? run_classes : run)(arguments, whole);
     } catch (const std::exception& fault) {
         fmt::print(stderr, "orrery_tradeoff: {}\n", fault.what());
         return EXIT_FAILURE;

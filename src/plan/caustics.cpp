@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <numbers>
 
 #include "kernels/caustic_sample.hpp"
@@ -24,11 +25,13 @@ bool smooth(const Scene& scene, const Primitive& p) {
 }
 
 /// Lights, and balls, that are looked at: plans of many spheres take time in proportion to their number.
-constexpr std::size_t most_lamps = 64, most_balls = 4, most_of_ball = 12;
+constexpr std::size_t most_lamps = 64, most_of_ball = 16;
 /// Samples of a ball from next to it, about, where all light on it is that of its caustics.
-constexpr double often = 2;
+constexpr double often = 4, often_glossy = 2;
+/// Caustics are sampled where paths find the lamp in less of the ball than this many times its share of the picture.
+constexpr double worthwhile = 8;
 /// How much of the light on a ball of glass comes off it by so many chords, about.
-constexpr double by_chords[] = {0.2, 1, 0.1};
+constexpr double by_chords[] = {0.2, 1, 0.1, 0.03, 0.02};
 
 using Indices = std::vector<std::uint32_t>;
 
@@ -66,25 +69,46 @@ double light_on(const Primitive& ball, const Primitive& lamp) {
     return &ball == &lamp ? 0 : brightest(*lamp.emission) * sine * sine;
 }
 
+/// How much of the picture the ball takes up, about, wherever it stands about the camera.
+double share_of_picture(const Scene& scene, const Primitive& ball) {
+    const double sine = ball.radius / glm::length(ball.centre - scene.camera.position);
+    const double half = std::tan(glm::radians(scene.camera.fov) / 2);
+    return std::numbers::pi / 4 * (sine * sine) / (half * half);
+}
+
+/// Whether paths find the lamp over the ball often enough for what it matters: of the ball's directions as many as the
+/// lamp, as its lobe blurs it, takes up of a half sphere; and only surfaces near the ball see much of it.
+bool left_to_chance(const Scene& scene, const Primitive& ball, const Primitive& lamp) {
+    const double distance = glm::length(lamp.centre - ball.centre);
+    const double roughness = smooth(scene, ball) ? 0 : scene.materials[ball.material].roughness;
+    const double sine = blurred_radius(distance, lamp.radius, roughness) / distance;
+    return worthwhile * share_of_picture(scene, ball) < sine * sine;
+}
+
 std::vector<PlannedCaustic> caustics_over(const Scene& scene, std::uint32_t ball, const Indices& lamps) {
     const Primitive& b = scene.primitives[ball];
-    const bool mirror = scattering(scene, b) == Scattering::specular;
+    const bool mirror = !kernels::traits_of(scattering(scene, b)).is_interface;
     const bool cut = !mirror && obstructed(scene, ball);
     std::vector<PlannedCaustic> list;
+    // A path over the ball has an event more than chords, and one at the vertex.
+    const std::uint32_t depth = scene.settings.depth;
+    const std::uint32_t most_chords = mirror || depth < 2 ? 0 : std::min(kernels::most_chords, depth - 2);
     double light_in_all = 0, sampled = 0;
     for (const std::uint32_t l : lamps) {
         const Primitive& lamp = scene.primitives[l];
         const double light = light_on(b, lamp);
         light_in_all += light;
         if (l == ball || glm::length(lamp.centre - b.centre) <= (lamp.radius + b.radius) * (1 + 1e-5)) continue;
-        for (std::uint32_t chords = 0; chords <= (mirror ? 0 : kernels::most_chords); ++chords)
+        if (left_to_chance(scene, b, lamp)) continue;
+        for (std::uint32_t chords = 0; chords <= most_chords; ++chords)
             list.push_back({ball, l, chords, cut && chords > 0, (mirror ? 1 : by_chords[chords]) * light, 0});
     }
     std::ranges::stable_sort(list, std::ranges::greater{}, &PlannedCaustic::share);
     if (list.size() > most_of_ball) list.resize(most_of_ball);
     for (const PlannedCaustic& caustic : list) sampled += caustic.share;
     if (sampled <= 0) return {};
-    for (PlannedCaustic& caustic : list) caustic.rate = often * sampled / light_in_all, caustic.share /= sampled;
+    const double rate = (smooth(scene, b) ? often : often_glossy) * sampled / light_in_all;
+    for (PlannedCaustic& caustic : list) caustic.rate = rate, caustic.share /= sampled;
     return list;
 }
 
@@ -102,22 +126,33 @@ bool any_obstructed(const Scene& scene, const Indices& balls) {
     });
 }
 
-std::vector<PlannedCaustic> plan_caustics(const Scene& scene) {
+std::vector<PlannedCaustic> plan_caustics(const Scene& scene, bool over_glossy) {
     const auto& p = scene.primitives;
     const Indices lamps = greatest(primitives_where(scene, emits), most_lamps, [&](std::uint32_t i) {
         return brightest(*p[i].emission) * p[i].radius * p[i].radius;
     });
-    Indices balls = smooth_spheres(scene);
     std::vector<double> strength(p.size());
-    for (const std::uint32_t b : balls)
-        for (const std::uint32_t l : lamps) strength[b] += light_on(p[b], p[l]) * p[b].radius * p[b].radius;
-    balls = greatest(std::move(balls), most_balls, [&](std::uint32_t b) { return strength[b]; });
+    Indices balls;
+    for (const bool glossy : {false, true}) {
+        if (glossy && !over_glossy) break;
+        Indices of = primitives_where(scene, [&](const Primitive& ball) {
+            return glossy ? scattering(scene, ball) == Scattering::glossy : smooth(scene, ball);
+        });
+        for (const std::uint32_t b : of)
+            for (const std::uint32_t l : lamps) strength[b] += light_on(p[b], p[l]) * p[b].radius * p[b].radius;
+        of = greatest(std::move(of), kernels::most_caustic_groups / 2, [&](std::uint32_t b) { return strength[b]; });
+        balls.insert(balls.end(), of.begin(), of.end());
+    }
     std::vector<PlannedCaustic> list;
     for (const std::uint32_t b : balls) {
         const auto over = caustics_over(scene, b, lamps);
         list.insert(list.end(), over.begin(), over.end());
     }
     return list;
+}
+
+double blurred_radius(double distance, double radius, double roughness) {
+    return distance * std::sin(std::min(1.3, std::asin(radius / distance) + std::asin(roughness)));
 }
 
 double carried_on(const Scene& scene) {
@@ -136,8 +171,9 @@ void put_steps(kernels::Caustic<Real>& caustic, double radius, const Material& b
     const double greatest = caustic.chords > 0 ? std::min(1.0, ball.eta) : 1;
     kernels::Caustic<double> alike{};
     alike.chords = caustic.chords, alike.mirror = caustic.mirror, alike.eta = ball.eta, alike.radius = radius;
-    for (std::uint32_t i = 0; i <= kernels::caustic_steps; ++i) {
-        const double sine = greatest * std::sin(i * std::numbers::pi / (2 * kernels::caustic_steps));
+    caustic.steps = caustic.chords == 0 ? 8 : caustic.chords == 1 ? 16 : kernels::most_caustic_steps;  // T turns faster
+    for (std::uint32_t i = 0; i <= caustic.steps; ++i) {
+        const double sine = greatest * std::sin(i * std::numbers::pi / (2 * caustic.steps));
         const double within = caustic.chords > 0 ? std::asin(std::min(1.0, sine / ball.eta)) : 0;
         const double turn = 2 * std::asin(sine) + caustic.chords * (std::numbers::pi - 2 * within);
         const double share = kernels::share_of_events<kernels::ScalarLanes<double>>(alike, radius * sine);

@@ -1,5 +1,5 @@
-// Which caustics are sampled on purpose: light of an area light over one smooth sphere, for path tracing. And which
-// spheres point lights are looked for in.
+// Which caustics are sampled on purpose: light of an area light over one smooth or glossy sphere, for path tracing. And
+// which spheres point lights are looked for in.
 #pragma once
 
 #include <vector>
@@ -19,8 +19,11 @@ struct PlannedCaustic {
 };
 
 /// Those worth their time, ball by ball, the strongest first. Decided by the scene's geometry and powers alone. A lamp
-/// that touches, holds or lies within a ball has none with it.
-std::vector<PlannedCaustic> plan_caustics(const Scene& scene);
+/// that touches, holds or lies within a ball has none with it. `over_glossy`: over glossy spheres too.
+std::vector<PlannedCaustic> plan_caustics(const Scene& scene, bool over_glossy);
+
+/// Radius of a lamp at `distance` from a glossy ball's centre, made larger by the width of the lobe.
+double blurred_radius(double distance, double radius, double roughness);
 
 /// Primitives that are mirrors, or dielectrics without roughness.
 std::vector<std::uint32_t> smooth_spheres(const Scene& scene);

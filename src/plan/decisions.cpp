@@ -81,11 +81,11 @@ std::vector<Decision> Plan::decisions() const {
            : n.one_light ? "every vertex chooses its light"
                          : "no diffuse surface samples area lights");
     decide("caustics: area lights", n.caustics,
-           n.caustics     ? fmt::format("{} over one smooth sphere, weighed against what is met by chance",
-                                        counted(caustics_.size(), "path"))
+           n.caustics     ? fmt::format("{} over one smooth{} sphere, weighed against what is met by chance",
+                                        counted(caustics_.size(), "path"), n.glossy_caustics ? " or glossy" : "")
            : !s.caustics  ? "switched off"
            : !n.competing ? "only where light samples compete with scattering"
-                          : "no smooth sphere stands apart from a light");
+                          : "no smooth or glossy sphere apart from a light, or paths find it over them by chance");
     decide("caustics: point lights", n.point_caustics,
            n.point_caustics ? fmt::format("over {}, one asked at a vertex; what comes over two or more is left out",
                                           counted(smooth_, "smooth sphere"))

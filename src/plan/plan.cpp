@@ -125,13 +125,18 @@ void Plan::plan_needs() {
         needs_.connect_area = needs_.competing ? rough : diffuse;
         needs_.scattering_pdf = needs_.connect_area != 0;
     }
-    if (needs_.competing && needs_.connect_area != 0 && s.caustics) {
-        caustics_ = plan_caustics(scene_);
-        needs_.caustics = !caustics_.empty();
-    }
     smooth_ = smooth_spheres(scene_).size();
     needs_.point_caustics = needs_.connect_point != 0 && s.caustics && s.depth > 1 && smooth_ > 0;
     needs_.one_light = s.light_choice != LightChoice::all && sampled_lights() > 1;
+    if (needs_.competing && needs_.connect_area != 0 && s.caustics) {
+        // Over glossy spheres only where the lobe's own directions are all that finds the lamp from there.
+        caustics_ = plan_caustics(scene_, s.light_sampling == LightSampling::exact && !needs_.one_light);
+        needs_.caustics = !caustics_.empty();
+        needs_.glossy_caustics = std::ranges::any_of(caustics_, [&](const PlannedCaustic& c) {
+            return scattering_of(scene_.materials[scene_.primitives[c.ball].material], s.integrator) ==
+                   kernels::Scattering::glossy;
+        });
+    }
     needs_.roulette = s.roulette && s.depth > s.roulette_from;
     needs_.eta_scale = needs_.roulette && dielectric != 0;
     needs_.lobes = ((needs_.connect_point | needs_.connect_area) & ~diffuse) != 0;

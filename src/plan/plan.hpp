@@ -29,7 +29,8 @@ struct Needs {
     std::uint32_t connect_area = 0;   ///< kinds whose vertices sample area lights
     bool one_light = false;           ///< a vertex samples one light of several
     bool exact = false;               ///< diffuse vertices take area lights in closed form where there is one
-    bool caustics = false;            ///< vertices sample light that comes over one smooth sphere
+    bool caustics = false;            ///< vertices sample light that comes over one smooth or glossy sphere
+    bool glossy_caustics = false;     ///< over glossy ones
     bool point_caustics = false;      ///< vertices look for point lights over smooth spheres
     bool competing = false;           ///< light samples and scattering share the work (mis)
     bool lights_only = false;         ///< what rays from vertices that sample area lights run into counts for nothing

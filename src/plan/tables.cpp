@@ -200,10 +200,15 @@ void Tables<Real>::sample_caustics(const Scene& scene, const LengthUnit& in, con
         c.cx = spheres.cx[c.ball], c.cy = spheres.cy[c.ball], c.cz = spheres.cz[c.ball];
         c.radius = spheres.radius[c.ball], c.radius2 = spheres.radius2[c.ball];
         c.eta = f(material.eta);
-        c.mirror = scattering_of(material, scene.settings.integrator) == kernels::Scattering::specular;
+        const auto scattering = scattering_of(material, scene.settings.integrator);
+        c.mirror = !kernels::traits_of(scattering).is_interface;
         const glm::dvec3 w = lamp.centre - ball.centre;
         c.wx = f(in.in_units(w.x)), c.wy = f(in.in_units(w.y)), c.wz = f(in.in_units(w.z));
         c.lamp_radius = spheres.radius[c.lamp];
+        if (scattering == kernels::Scattering::glossy) {
+            c.roughness = f(material.roughness);
+            c.lamp_radius = f(in.in_units(blurred_radius(glm::length(w), lamp.radius, material.roughness)));
+        }
         glm::dvec3 colour = *lamp.emission;
         if (p.chords != 1) colour *= material.rho;
         if (p.chords > 0) colour *= material.rho_t * material.rho_t;
@@ -213,7 +218,6 @@ void Tables<Real>::sample_caustics(const Scene& scene, const LengthUnit& in, con
         if (caustics_.empty() || caustics_.back().ball != c.ball)
             caustic_groups_.push_back({static_cast<std::uint32_t>(caustics_.size()), 0, f(p.rate)});
         ++caustic_groups_.back().count;
-        c.group = static_cast<std::uint32_t>(caustic_groups_.size() - 1);
         caustics_.push_back(c);
     }
     const auto count = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };

@@ -80,8 +80,8 @@ std::vector<Setting> table() {
          .member = member<&S::light_choice>, .matters = with_paths},
         {.key = "caustics", .option = "caustics", .group = "Method", .kind = word, .words = {"on", "off"},
          .same_expectation = true, .but_for_point_lights = true,
-         .meaning = "Light that comes to a surface over one glass or mirror sphere is sampled on purpose; off leaves out "
-                    "that of point lights",
+         .meaning = "Light that comes to a surface over one glass, mirror or glossy sphere is sampled on purpose; off "
+                    "leaves out that of point lights",
          .member = member<&S::caustics>, .matters = with_paths},
         {.key = "roulette", .option = "roulette", .group = "Method", .kind = word, .words = {"on", "off"},
          .same_expectation = true, .meaning = "Russian roulette ends paths of low throughput",

@@ -17,19 +17,16 @@ constexpr StageInfo emission_info{"emission", Stage::shade, radiance_part | ray_
 constexpr StageInfo sort_info{"sort", Stage::shade, ray_part | hit_part, sorted_part, true};
 constexpr StageInfo scatter_info{"scatter", Stage::shade, slot_part | ray_part | hit_part | chain_part,
                                  ray_part | chain_part};
-constexpr StageInfo rough_info{"scatter", Stage::shade, slot_part | ray_part | hit_part, ray_part | lobe_part};
+constexpr StageInfo rough_info{"scatter", Stage::shade, slot_part | ray_part | hit_part | chain_part,
+                               ray_part | lobe_part | chain_part};
 // What it puts aside is not compared: the slots are.
 constexpr StageInfo exact_info{"exact", Stage::shade, slot_part | radiance_part | ray_part, radiance_part, true};
 constexpr StageInfo aside_info{"connect", Stage::shade, slot_part | aside_part, shadow_part, true};
 constexpr StageInfo connect_info{"connect", Stage::shade, slot_part | ray_part | lobe_part, shadow_part, true};
 constexpr StageInfo shadow_info{"shadow", Stage::shadow, radiance_part | shadow_part, radiance_part};
-constexpr StageInfo pick_info{"pick", Stage::shade, slot_part | ray_part, pick_part, true};
-constexpr StageInfo caustic_info{"caustic", Stage::shade, slot_part | ray_part | lobe_part | pick_part, shadow_part,
-                                 true};
-constexpr StageInfo unblocked_info{"unblocked", Stage::shadow, shadow_part, shadow_part};
-constexpr StageInfo follow_info{"follow", Stage::shade, shadow_part, shadow_part, true};
 constexpr StageInfo chance_info{"chance", Stage::shade, radiance_part | ray_part | hit_part | chain_part | pick_part,
                                 radiance_part, true};
+constexpr StageInfo weigh_info{"weigh", Stage::shade, shadow_part | chain_part, shadow_part, true};
 constexpr StageInfo roulette_info{"roulette", Stage::roulette, slot_part | ray_part, ray_part};
 constexpr StageInfo branch_info{"branch", Stage::shade, 0, 0};
 constexpr StageInfo resume_info{"resume", Stage::roulette, 0, 0};
@@ -168,7 +165,14 @@ void Wave<Real>::light(Scattering kind, const kernels::LightTable<Real>& lights,
                  const auto stage = s.connect[static_cast<std::size_t>(response)];
                  return only({0, stage(context_on(q), which, vertices, exact ? q.aside : q.rays, q.lobes, q.shadows)});
              });
-    shadow(aimed.run[0].count, chosen ? kernels::no_sphere : static_cast<std::uint32_t>(lights.sphere[which]), bounce);
+    const std::uint32_t rays = aimed.run[0].count;
+    if (plan.needs().glossy_caustics && kind == Scattering::glossy && which >= lights.points && bounce > 0 && rays > 0)
+        call({weigh_info, bounce, {0, rays}, words<Real>(1 + 1 + 2 * 3 + 9), stages.lanes},
+             [context = caustics_on(*this, bounce + 1), which, rays](const auto& s, auto& q) {
+                 s.weigh_shadows(context(q), which, rays, q.shadows);
+                 return only({0, rays});
+             });
+    shadow(rays, chosen ? kernels::no_sphere : static_cast<std::uint32_t>(lights.sphere[which]), bounce);
 }
 
 template <class Real>
@@ -189,68 +193,6 @@ void Wave<Real>::shadow(std::uint32_t rays, std::uint32_t target, std::uint32_t 
              return only({0, rays});
          });
     counters.shadow_rays += rays;
-}
-
-template <class Real>
-void Wave<Real>::caustics(const Runs& runs, std::uint32_t bounce) {
-    if (!plan.needs().caustics || bounce + 2 > plan.settings().depth) return;
-    for (const Scattering kind : pipeline.lit) {
-        const Range vertices = runs.run[static_cast<std::size_t>(kind)];
-        if (vertices.count == 0) continue;
-        const auto response = static_cast<std::size_t>(kernels::traits_of(kind).response);
-        for (std::uint32_t g = 0; g < tables.caustics.groups; ++g) {
-            proceed(vertices.count);
-            const std::uint32_t picked =
-                call({pick_info, bounce, vertices, words<Real>(3 + 1), stages.lanes, kernels::traits_of(kind).name},
-                     [context = caustics_on(*this, bounce), response, vertices, g](const auto& s, auto& q) {
-                         return only({0, s.pick_caustics[response](context(q), g, vertices, q.rays, q.picks)});
-                     })
-                    .run[0]
-                    .count;
-            if (picked == 0) continue;
-            const auto& group = tables.caustics.group[g];
-            for (std::uint32_t c = group.first; c < group.first + group.count; ++c)
-                if (bounce + tables.caustics.entries[c].chords + 2 <= plan.settings().depth)
-                    caustic(kernels::traits_of(kind).response, c, picked, bounce);
-        }
-    }
-}
-
-/// The vertices that picked one caustic; and what of that arrives.
-template <class Real>
-void Wave<Real>::caustic(kernels::Response response, std::uint32_t which, std::uint32_t picked, std::uint32_t bounce) {
-    const auto& way = tables.caustics.entries[which];
-    std::uint32_t rays =
-        call({caustic_info, bounce, {0, picked}, words<Real>(3), stages.lanes},
-             [context = caustics_on(*this, bounce), response, which, picked](const auto& s, auto& q) {
-                 const auto stage = s.connect_caustic[static_cast<std::size_t>(response)];
-                 return only({0, stage(context(q), which, picked, q.rays, q.lobes, q.picks, q.shadows)});
-             })
-            .run[0]
-            .count;
-    const auto without_targets = [](const WaveStorage<Real>& q) {
-        auto queue = q.shadows;
-        queue.target = nullptr;
-        return queue;
-    };
-    for (std::uint32_t event = 0; event <= way.chords && rays > 0; ++event) {
-        if (event == 0 || way.obstructed) {
-            counters.shadow_rays += rays;
-            rays = call({unblocked_info, bounce, {0, rays}, record_bytes(storage.shadows), pipeline.sphere_step},
-                        [&spheres = tables.spheres, stage = pipeline.unblocked, rays, ball = way.ball, without_targets](
-                            const auto& s, auto& q) {
-                            return only({0, (s.*stage)(spheres, without_targets(q), rays, ball)});
-                        })
-                       .run[0]
-                       .count;
-        }
-        call({follow_info, bounce, {0, rays}, 2 * words<Real>(7 + 1 + 3), stages.step},
-             [&spheres = tables.spheres, &way, event, rays](const auto& s, auto& q) {
-                 s.follow_caustic(spheres, way, event, q.shadows, rays);
-                 return only({0, rays});
-             });
-    }
-    shadow(rays, way.lamp, bounce);
 }
 
 template <class Real>

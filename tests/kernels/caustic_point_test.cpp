@@ -234,7 +234,7 @@ TYPED_TEST(PointPaths, AreParaxialOnTheAxis) {
             angle = angle * eta - (eta - 1) * y;
             return y + (e - 1) * angle;
         };
-        for (std::uint32_t chords = 0; chords <= kernels::most_chords; ++chords) {
+        for (std::uint32_t chords = 0; chords <= kernels::most_point_chords; ++chords) {
             const double side = chords % 2 == 0 ? -1 : 1;
             Setting s{eta, chords, {0, 0, -d}, {1e-30, 0, side * e}};
             const auto found = found_by_kernel<TypeParam>(s);

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "kernels/stages.hpp"
+#include "plan/caustics.hpp"
 #include "reference/optics.hpp"
 #include "reference/random.hpp"
 #include "reference/world.hpp"
@@ -22,7 +25,7 @@ constexpr std::uint32_t floor_id = 0, ball_id = 1, lamp_id = 2;
 constexpr std::uint32_t vertices = 2048;
 
 /// A vertex on top of a floor, a ball and a lamp anywhere above it.
-Scene random_scene(Random& random, bool mirrors) {
+Scene random_scene(Random& random, const Material& of_ball) {
     Scene scene = picture({0, 5, -5}, {0, 0, 0}, 30, 8);
     add_sphere(scene, {0, -50, 0}, 50, diffuse({0.8, 0.7, 0.6}));
     const auto place = [&](double low, double high) {
@@ -31,7 +34,7 @@ Scene random_scene(Random& random, bool mirrors) {
     };
     const dvec3 at = place(1.5, 5);
     const double radius = (0.1 + 0.8 * random.uniform()) * 0.9 * glm::length(at);
-    add_sphere(scene, at, radius, mirrors ? mirror(0.9) : glass(0.9, random.uniform() < 0.3 ? 0.8 : 1.5));
+    add_sphere(scene, at, radius, of_ball);
     dvec3 lamp;
     do lamp = place(2, 9);
     while (glm::length(lamp - at) < 1.3 * radius);
@@ -51,12 +54,15 @@ void put_vertices(WaveStorage<double>& q) {
 /// Sphere met, or nothing, by a path that leaves `from` and makes the events of `chords` chords at the ball; the
 /// probability of those.
 struct Followed {
-    std::size_t met = reference::nothing;
+    bool arrives = false;
     double probability = 1;
 };
-Followed follow(const Scene& scene, const dvec3& from, dvec3 direction, std::uint32_t chords) {
+/// Over a glossy ball, with `reach` > 0, it arrives where the mirrored direction passes within that of the lamp's
+/// centre.
+Followed follow(const Scene& scene, const dvec3& from, dvec3 direction, std::uint32_t chords, double reach) {
     reference::Ray ray{from, direction, floor_id};
     Followed result;
+    const Primitive& lamp = scene.primitives[lamp_id];
     for (std::uint32_t event = 0; event <= chords; ++event) {
         const auto hit = reference::closest_hit(scene.primitives, ray);
         if (hit.sphere != ball_id || hit.inside != (event > 0)) return {};
@@ -69,7 +75,10 @@ Followed follow(const Scene& scene, const dvec3& from, dvec3 direction, std::uin
         result.probability *= lobe.probability;
         ray = {point, lobe.axis, ball_id};
     }
-    result.met = reference::closest_hit(scene.primitives, ray).sphere;
+    const dvec3 to = lamp.centre - ray.origin;
+    const double along = glm::dot(to, ray.direction);
+    result.arrives = reach > 0 ? along > 0 && glm::dot(to, to) - along * along < reach * reach
+                               : reference::closest_hit(scene.primitives, ray).sphere == lamp_id;
     return result;
 }
 
@@ -82,8 +91,14 @@ TEST_P(CausticStages, SampleEveryWayToTheLampAndWeighAsChanceDoes) {
     int tests = 0;
     std::uint32_t samples = 0, astray = 0, other_weight = 0;
     for (int trial = 0; trial < 60; ++trial) {
-        Scene scene = random_scene(random, trial % 3 == 0);
+        const Material balls[] = {mirror(0.9), glass(0.9, random.uniform() < 0.3 ? 0.8 : 1.5),
+                                  glossy(0.9, 0.02 + 0.3 * random.uniform())};
+        const bool rough = trial % 3 == 2;
+        Scene scene = random_scene(random, balls[trial % 3]);
         scene.settings.precision = Precision::binary64;
+        const Primitive &ball = scene.primitives[ball_id], &lamp = scene.primitives[lamp_id];
+        const double roughness = scene.materials[ball.material].roughness;
+        const double reach = rough ? blurred_radius(glm::length(lamp.centre - ball.centre), lamp.radius, roughness) : 0;
         const Plan plan(scene);
         const auto& tables = plan.tables<double>();
         WaveStorage<double> q(plan.needs(), 8, vertices);
@@ -99,16 +114,17 @@ TEST_P(CausticStages, SampleEveryWayToTheLampAndWeighAsChanceDoes) {
             for (int wave = 0; wave < waves; ++wave) {
                 put_vertices(q);
                 context.seed = 100 * static_cast<std::uint32_t>(trial) + static_cast<std::uint32_t>(wave);
-                const std::uint32_t picked = stages.pick_caustics[0](context, 0, {0, vertices}, q.rays, q.picks);
+                const std::uint32_t picked = stages.pick_caustics[0](context, {0, vertices}, q.rays, q.picks);
                 if (picked == 0) continue;
                 const std::uint32_t count =
                     stages.connect_caustic[0](context, c, picked, q.rays, q.lobes, q.picks, q.shadows);
+                std::vector<std::pair<std::uint32_t, double>> by_chance;
                 for (std::uint32_t i = 0; i < count; ++i) {
                     const dvec3 d{q.shadows.dx[i], q.shadows.dy[i], q.shadows.dz[i]};
                     const double scattering = d.y / std::numbers::pi;
-                    const Followed there = follow(scene, from, d, caustic.chords);
+                    const Followed there = follow(scene, from, d, caustic.chords, reach);
                     ++samples;
-                    if (there.met != lamp_id) {  // also what the floor hides
+                    if (!there.arrives) {  // also what the floor hides
                         ++astray;
                         continue;
                     }
@@ -118,11 +134,15 @@ TEST_P(CausticStages, SampleEveryWayToTheLampAndWeighAsChanceDoes) {
                     found += 1 / density, found2 += 1 / (density * density);
                     // The same path by chance.
                     const auto slot = q.shadows.slot[i];
-                    q.slots.chains.state[slot] = kernels::chain_closed | caustic.chords;
+                    q.slots.chains.state[slot] = rough ? kernels::chain_begun : kernels::chain_closed | caustic.chords;
                     q.slots.chains.ball[slot] = ball_id, q.slots.chains.departed[slot] = floor_id;
                     q.slots.chains.x[slot] = q.slots.chains.y[slot] = q.slots.chains.z[slot] = 0;
                     q.slots.chains.dx[slot] = d.x, q.slots.chains.dy[slot] = d.y, q.slots.chains.dz[slot] = d.z;
                     q.slots.chains.pdf[slot] = scattering * there.probability;
+                    if (rough) {
+                        by_chance.emplace_back(i, weight);
+                        continue;
+                    }
                     kernels::RayQueue<double> ray = q.sorted_rays;
                     ray.tr[0] = ray.tg[0] = ray.tb[0] = 1, ray.slot[0] = slot;
                     kernels::HitQueue<double> hit = q.sorted_hits;
@@ -138,16 +158,21 @@ TEST_P(CausticStages, SampleEveryWayToTheLampAndWeighAsChanceDoes) {
                     place.place[0] = first_pick;
                     if (std::abs(radiance[0] / 5 - weight) > 1e-5) ++other_weight;
                 }
+                if (!rough) continue;
+                context.bounce = 2;
+                stages.weigh_shadows(context, 0, count, q.shadows);
+                context.bounce = 0;
+                for (const auto& [i, weight] : by_chance)
+                    if (std::abs(q.shadows.r[i] / caustic.r - weight * weight) > 1e-5) ++other_weight;
             }
             // The solid angle of the lamp seen so, by directions all over the ball's cone.
-            const Primitive& ball = scene.primitives[ball_id];
             const double distance = glm::length(ball.centre), sine = ball.radius / distance;
             const double range = 1 - std::sqrt(1 - sine * sine);
             constexpr int directions = 100000;
             int hits = 0;
             for (int k = 0; k < directions; ++k) {
                 const dvec3 d = random.in_cone(ball.centre, 1 - range);
-                if (d.y > 0 && follow(scene, from, d, caustic.chords).met == lamp_id) ++hits;
+                if (d.y > 0 && follow(scene, from, d, caustic.chords, reach).arrives) ++hits;
             }
             const double n = waves * vertices, share = static_cast<double>(hits) / directions;
             const double expected = 2 * std::numbers::pi * range * share;

@@ -151,7 +151,7 @@ TEST_P(PointCausticStages, CarryWhatRaysBesideThemSay) {
         if (picked == 0) continue;
         picked = std::min(picked, 40u);
         const Material& material = scene.materials[scene.primitives[1].material];
-        for (std::uint32_t chords = 0; chords <= kernels::most_chords; ++chords) {
+        for (std::uint32_t chords = 0; chords <= kernels::most_point_chords; ++chords) {
             const auto connect = [&](const auto& by) {
                 return by.connect_point_caustic[response](context, chords, 0, {0, picked}, v.q.rays, v.q.lobes,
                                                           v.q.picks, v.q.shadows);
