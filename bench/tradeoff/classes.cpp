@@ -31,7 +31,8 @@ public:
         const std::string_view stage = call.stage.name;
         if (stage == "generate") begin_wave();
         if (stage == "scatter") scatter(call);
-        if (stage == "connect" || stage == "caustic") over_ = stage == "caustic", glossy_ = *call.detail != 0;
+        if (stage == "connect" || stage == "caustic")
+            over_ = stage == "caustic", glossy_ = call.detail == std::string_view("glossy");
         if ((call.stage.writes & radiance_part) == 0 || stage == "generate") return run(wave_.stages, wave_.storage);
         const float* const radiance = wave_.storage.slots.radiance;
         before_.assign(radiance, radiance + 4 * std::size_t{wave_.count});

@@ -32,6 +32,7 @@ constexpr double often = 4, often_glossy = 2;
 constexpr double worthwhile = 8;
 /// How much of the light on a ball of glass comes off it by so many chords, about.
 constexpr double by_chords[] = {0.2, 1, 0.1, 0.03, 0.02};
+static_assert(std::size(by_chords) == kernels::most_chords + 1);
 
 using Indices = std::vector<std::uint32_t>;
 
@@ -92,7 +93,7 @@ std::vector<PlannedCaustic> caustics_over(const Scene& scene, std::uint32_t ball
     std::vector<PlannedCaustic> list;
     // A path over the ball has an event more than chords, and one at the vertex.
     const std::uint32_t depth = scene.settings.depth;
-    const std::uint32_t most_chords = mirror || depth < 2 ? 0 : std::min(kernels::most_chords, depth - 2);
+    const std::uint32_t most_chords = mirror ? 0 : std::min(kernels::most_chords, std::max(depth, 2u) - 2);
     double light_in_all = 0, sampled = 0;
     for (const std::uint32_t l : lamps) {
         const Primitive& lamp = scene.primitives[l];

@@ -18,8 +18,8 @@ struct PlannedCaustic {
     double rate;   ///< of these
 };
 
-/// Those worth their time, ball by ball, the strongest first. Decided by the scene's geometry and powers alone. A lamp
-/// that touches, holds or lies within a ball has none with it. `over_glossy`: over glossy spheres too.
+/// Those worth their time, ball by ball, the strongest first. Decided by the scene's geometry, powers and camera alone.
+/// A lamp that touches, holds or lies within a ball has none with it. `over_glossy`: over glossy spheres too.
 std::vector<PlannedCaustic> plan_caustics(const Scene& scene, bool over_glossy);
 
 /// Radius of a lamp at `distance` from a glossy ball's centre, made larger by the width of the lobe.

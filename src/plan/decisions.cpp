@@ -85,7 +85,10 @@ std::vector<Decision> Plan::decisions() const {
                                         counted(caustics_.size(), "path"), n.glossy_caustics ? " or glossy" : "")
            : !s.caustics  ? "switched off"
            : !n.competing ? "only where light samples compete with scattering"
-                          : "no smooth or glossy sphere apart from a light, or paths find it over them by chance");
+           : s.depth < 2
+               ? "no path scatters twice"
+               : "no smooth sphere apart from a light (nor glossy one, where all lights are sampled by exact), or "
+                 "paths find the lights over them by chance");
     decide("caustics: point lights", n.point_caustics,
            n.point_caustics ? fmt::format("over {}, one asked at a vertex; what comes over two or more is left out",
                                           counted(smooth_, "smooth sphere"))

@@ -128,7 +128,7 @@ void Plan::plan_needs() {
     smooth_ = smooth_spheres(scene_).size();
     needs_.point_caustics = needs_.connect_point != 0 && s.caustics && s.depth > 1 && smooth_ > 0;
     needs_.one_light = s.light_choice != LightChoice::all && sampled_lights() > 1;
-    if (needs_.competing && needs_.connect_area != 0 && s.caustics) {
+    if (needs_.competing && needs_.connect_area != 0 && s.caustics && s.depth > 1) {
         // Over glossy spheres only where the lobe's own directions are all that finds the lamp from there.
         caustics_ = plan_caustics(scene_, s.light_sampling == LightSampling::exact && !needs_.one_light);
         needs_.caustics = !caustics_.empty();

@@ -210,8 +210,9 @@ void Tables<Real>::sample_caustics(const Scene& scene, const LengthUnit& in, con
             c.lamp_radius = f(in.in_units(blurred_radius(glm::length(w), lamp.radius, material.roughness)));
         }
         glm::dvec3 colour = *lamp.emission;
-        if (p.chords != 1) colour *= material.rho;
+        if (p.chords == 0) colour *= material.rho;
         if (p.chords > 0) colour *= material.rho_t * material.rho_t;
+        for (std::uint32_t inner = 1; inner < p.chords; ++inner) colour *= material.rho;
         c.r = f(colour.r), c.g = f(colour.g), c.b = f(colour.b);
         c.share = f(p.share);
         put_steps(c, in.in_units(ball.radius), material);
