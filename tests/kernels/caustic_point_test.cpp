@@ -194,10 +194,11 @@ TYPED_TEST(PointPaths, AreAllThereAreWithTheirShareOfSolidAngle) {
             if (!(std::abs(nearest->spread / share - 1) < (single ? 2e-3 : 1e-4))) ++rough;
             found.erase(nearest);
         }
-        // Two that the scan took for none: they must pass the point all the same.
+        // Two that the scan took for none: they must pass the point all the same, as far as the direction's digits
+        // tell; rays that graze the ball turn away by much for a little.
         for (const Path& path : found) {
             const auto miss = passes(s, Axes(s), path.angle);
-            EXPECT_TRUE(!miss || std::abs(*miss) < 1e-4 * glm::length(s.point))
+            EXPECT_TRUE(!miss || std::abs(*miss) < (single ? 1e-3 : 1e-4) * glm::length(s.point))
                 << "at " << path.angle << " misses by " << miss.value_or(0);
         }
     }

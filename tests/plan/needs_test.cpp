@@ -118,8 +118,8 @@ TEST(Needs, CausticsOfManyBallsInTimeInProportion) {
         std::vector<std::uint32_t> all = smooth_spheres(scene);
         EXPECT_EQ(all.size(), balls);
         any_obstructed(scene, all);
-        std::vector<float> column(all.size());
-        for (std::size_t i = 0; i < all.size(); ++i) column[i] = static_cast<float>(3 * i);
+        std::vector<float> column(scene.primitives.size());
+        for (std::size_t i = 0; i < column.size(); ++i) column[i] = static_cast<float>(3 * i);
         kernels::SphereTable<float> spheres;
         spheres.cx = spheres.cy = spheres.cz = spheres.radius = column.data();
         EXPECT_GT(SphereChoice<float>(spheres, all).levels(), 10u);
