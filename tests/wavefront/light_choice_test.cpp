@@ -60,6 +60,7 @@ TEST(LightChoice, AgreesWithinALight) {
 TEST(LightChoice, AgreesInACrowd) {
     Scene scene = crowd();
     scene.settings.depth = 3;
+    scene.settings.caustics = false;  // over its many mirrors they would take the reference minutes
     add_point_light(scene, {0, 3, -3}, {5, 6, 7});
     std::vector<Variant> variants = {{"all", [](RenderSettings&) {}}};
     for (const LightChoice choice : {LightChoice::uniform, LightChoice::power})
