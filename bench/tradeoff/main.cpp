@@ -113,7 +113,7 @@ void run(const Arguments& arguments, bool whole) {
 /// One line per class of path of each scene, as each technique against it joins in.
 void run_classes(const Arguments& arguments, bool whole) {
     const Clock clock;
-    const std::uint32_t samples = arguments.quick ? 256 : 4096;
+    const std::uint32_t samples = arguments.quick ? 256 : 1024;
     fmt::memory_buffer lines;
     for (const std::string& name : arguments.names) {
         const Scene scene = scene_of(arguments.scenes / (name + ".json"));
