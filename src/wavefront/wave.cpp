@@ -40,6 +40,13 @@ auto scattering_on(const Wave<Real>& w, std::uint32_t bounce) {
     };
 }
 
+/// Whether light `which` is sampled over some glossy sphere.
+template <class Real>
+bool seen_over_glossy(const kernels::CausticTable<Real>& caustics, std::uint32_t which) {
+    return std::any_of(caustics.entries, caustics.entries + caustics.count,
+                       [=](const auto& c) { return c.light == which && c.roughness > 0; });
+}
+
 }  // namespace
 
 template <class Real>
@@ -111,9 +118,13 @@ void Wave<Real>::scatter(Scattering kind, const Runs& runs, std::uint32_t bounce
     // Read and written in place but for the slot, pixel and sample, which are only read.
     const std::uint32_t bytes = 2 * record_bytes(storage.rays) - words<Real>(3) + record_bytes(storage.hits) +
                                 (rough ? record_bytes(storage.lobes) : 0);
+    // Where no caustic is over a glossy sphere, chains need not know of them.
+    const bool noted = kind != Scattering::glossy || plan.needs().glossy_caustics;
     call({rough ? rough_info : scatter_info, bounce, hits, bytes, stages.step, traits.name},
-         [context = scattering_on(*this, bounce), k, hits](const auto& s, auto& q) {
-             s.scatter[k](context(q), hits, q.rays, q.hits, q.lobes);
+         [context = scattering_on(*this, bounce), k, hits, noted](const auto& s, auto& q) {
+             auto on = context(q);
+             if (!noted) on.slots.chains = {};
+             s.scatter[k](on, hits, q.rays, q.hits, q.lobes);
              return only(hits);
          });
 }
@@ -166,7 +177,7 @@ void Wave<Real>::light(Scattering kind, const kernels::LightTable<Real>& lights,
                  return only({0, stage(context_on(q), which, vertices, exact ? q.aside : q.rays, q.lobes, q.shadows)});
              });
     const std::uint32_t rays = aimed.run[0].count;
-    if (plan.needs().glossy_caustics && kind == Scattering::glossy && which >= lights.points && bounce > 0 && rays > 0)
+    if (kind == Scattering::glossy && bounce > 0 && rays > 0 && seen_over_glossy(tables.caustics, which))
         call({weigh_info, bounce, {0, rays}, words<Real>(1 + 1 + 2 * 3 + 9), stages.lanes},
              [context = caustics_on(*this, bounce + 1), which, rays](const auto& s, auto& q) {
                  s.weigh_shadows(context(q), which, rays, q.shadows);
