@@ -32,7 +32,7 @@ std::uint32_t pick_caustics(const CausticContext<RealOf<V>>& context, Range run,
     using U = Words<V>;
     const auto& caustics = context.caustics;
     const F scale(rough_scale<response>(caustic_scale(caustics, context.bounce)));
-    const RandomKey key{context.seed, Dimension::caustic, 0};
+    const RandomKey key{context.seed, Dimension::caustic};
     const bool sobol = context.slots.sobol.x != nullptr;
     std::uint32_t picked = 0;
     for (std::uint32_t n = 0; n < run.count; n += V::count) {
@@ -85,7 +85,7 @@ std::uint32_t connect_caustic(const CausticContext<RealOf<V>>& context, std::uin
     using F = Floats<V>;
     using U = Words<V>;
     const auto& caustic = context.caustics.entries[which];
-    const RandomKey key{context.seed, Dimension::caustic, 0};
+    const RandomKey key{context.seed, Dimension::caustic};
     const bool sobol = context.slots.sobol.x != nullptr;
     // Those of this caustic, gathered until they fill a vector.
     alignas(64) WordOf<Real> place[2 * V::count] = {};
@@ -197,7 +197,7 @@ std::uint32_t follow_lobe(const CausticContext<RealOf<V>>& context, const Causti
     const auto& slots = context.slots;
     const Sphere<F> ball{{F(caustic.cx), F(caustic.cy), F(caustic.cz)}, F(caustic.radius), F(caustic.radius2)};
     const Sphere<F> lamp = broadcast_sphere<V>(context.spheres, caustic.lamp);
-    const RandomKey key{context.seed, Dimension::caustic_lobe, 0};
+    const RandomKey key{context.seed, Dimension::caustic_lobe};
     std::uint32_t size = 0;
     for (std::uint32_t i = 0; i < count; i += V::count) {
         const auto in_queue = first_lanes<V>(count - i);

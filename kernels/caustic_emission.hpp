@@ -1,4 +1,4 @@
-// Light that paths met by chance over one smooth sphere, weighed against the caustics that vertices sample.
+// Light that paths met by chance over one smooth or glossy sphere, weighed against the caustics that vertices sample.
 #pragma once
 
 #include "kernels/caustic_connect.hpp"

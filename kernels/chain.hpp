@@ -1,4 +1,5 @@
-// What a path remembers at smooth spheres, so that light it meets by chance is weighed against sampled caustics.
+// What a path remembers at smooth and glossy spheres, so that light it meets by chance is weighed against sampled
+// caustics.
 //
 // Two loops of their own around that of `scatter`, for scenes that need it: in its loop they would cost registers.
 #pragma once
@@ -36,8 +37,8 @@ ORRERY_INLINE ChainRays<V> chain_rays(const Rays<V>& rays, const Hits<V>& hits, 
 }
 }  // namespace detail
 
-/// Before a run of smooth spheres scatters: chains begin where rays of finite density, that is from vertices that
-/// sample caustics, meet a sphere from outside; those that are not within their ball end.
+/// Before a run of smooth or glossy spheres scatters: chains begin where rays of finite density, that is from vertices
+/// that sample caustics, meet a sphere from outside; those that are not within their ball end.
 template <class V>
 [[gnu::noinline]] void begin_chains(const ChainTable<RealOf<V>>& chains, Range run, const Rays<V>& rays,
                                     const Hits<V>& hits) {

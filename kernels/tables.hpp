@@ -137,8 +137,8 @@ struct LightTable {
     const Real* inverse_probability = nullptr;
 };
 
-/// How many chords of light within a ball a Caustic may have: reflected off it, straight through, and after
-/// one to three reflections inside.
+/// How many chords of light within a ball a Caustic may have: reflected off it, straight through, and after one to
+/// three reflections inside.
 inline constexpr std::uint32_t most_chords = 4;
 /// The same where point lights are looked for.
 inline constexpr std::uint32_t most_point_chords = 2;

@@ -79,9 +79,8 @@ double share_of_picture(const Scene& scene, const Primitive& ball) {
 
 /// Whether paths find the lamp over the ball often enough for what it matters: of the ball's directions as many as the
 /// lamp, as its lobe blurs it, takes up of a half sphere; and only surfaces near the ball see much of it.
-bool left_to_chance(const Scene& scene, const Primitive& ball, const Primitive& lamp) {
+bool left_to_chance(const Scene& scene, const Primitive& ball, double roughness, const Primitive& lamp) {
     const double distance = glm::length(lamp.centre - ball.centre);
-    const double roughness = smooth(scene, ball) ? 0 : scene.materials[ball.material].roughness;
     const double sine = blurred_radius(distance, lamp.radius, roughness) / distance;
     return worthwhile * share_of_picture(scene, ball) < sine * sine;
 }
@@ -90,6 +89,7 @@ std::vector<PlannedCaustic> caustics_over(const Scene& scene, std::uint32_t ball
     const Primitive& b = scene.primitives[ball];
     const bool mirror = !kernels::traits_of(scattering(scene, b)).is_interface;
     const bool cut = !mirror && obstructed(scene, ball);
+    const double roughness = smooth(scene, b) ? 0 : scene.materials[b.material].roughness;
     std::vector<PlannedCaustic> list;
     // A path over the ball has an event more than chords, and one at the vertex.
     const std::uint32_t depth = scene.settings.depth;
@@ -100,15 +100,16 @@ std::vector<PlannedCaustic> caustics_over(const Scene& scene, std::uint32_t ball
         const double light = light_on(b, lamp);
         light_in_all += light;
         if (l == ball || glm::length(lamp.centre - b.centre) <= (lamp.radius + b.radius) * (1 + 1e-5)) continue;
-        if (left_to_chance(scene, b, lamp)) continue;
+        if (left_to_chance(scene, b, roughness, lamp)) continue;
         for (std::uint32_t chords = 0; chords <= most_chords; ++chords)
-            list.push_back({ball, l, chords, cut && chords > 0, (mirror ? 1 : by_chords[chords]) * light, 0});
+            list.push_back(
+                {ball, l, chords, cut && chords > 0, roughness, (mirror ? 1 : by_chords[chords]) * light, 0});
     }
     std::ranges::stable_sort(list, std::ranges::greater{}, &PlannedCaustic::share);
     if (list.size() > most_of_ball) list.resize(most_of_ball);
     for (const PlannedCaustic& caustic : list) sampled += caustic.share;
     if (sampled <= 0) return {};
-    const double rate = (smooth(scene, b) ? often : often_glossy) * sampled / light_in_all;
+    const double rate = (roughness > 0 ? often_glossy : often) * sampled / light_in_all;
     for (PlannedCaustic& caustic : list) caustic.rate = rate, caustic.share /= sampled;
     return list;
 }

@@ -14,8 +14,9 @@ struct PlannedCaustic {
     std::uint32_t ball, lamp;  ///< primitives
     std::uint32_t chords;
     bool obstructed;
-    double share;  ///< of the samples over the ball
-    double rate;   ///< of these
+    double roughness;  ///< of a glossy ball; 0: smooth
+    double share;      ///< of the samples over the ball
+    double rate;       ///< of these
 };
 
 /// Those worth their time, ball by ball, the strongest first. Decided by the scene's geometry, powers and camera alone.

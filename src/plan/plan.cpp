@@ -132,10 +132,8 @@ void Plan::plan_needs() {
         // Over glossy spheres only where the lobe's own directions are all that finds the lamp from there.
         caustics_ = plan_caustics(scene_, s.light_sampling == LightSampling::exact && !needs_.one_light);
         needs_.caustics = !caustics_.empty();
-        needs_.glossy_caustics = std::ranges::any_of(caustics_, [&](const PlannedCaustic& c) {
-            return scattering_of(scene_.materials[scene_.primitives[c.ball].material], s.integrator) ==
-                   kernels::Scattering::glossy;
-        });
+        needs_.glossy_caustics =
+            std::ranges::any_of(caustics_, [](const PlannedCaustic& c) { return c.roughness > 0; });
     }
     needs_.roulette = s.roulette && s.depth > s.roulette_from;
     needs_.eta_scale = needs_.roulette && dielectric != 0;

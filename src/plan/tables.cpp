@@ -200,15 +200,12 @@ void Tables<Real>::sample_caustics(const Scene& scene, const LengthUnit& in, con
         c.cx = spheres.cx[c.ball], c.cy = spheres.cy[c.ball], c.cz = spheres.cz[c.ball];
         c.radius = spheres.radius[c.ball], c.radius2 = spheres.radius2[c.ball];
         c.eta = f(material.eta);
-        const auto scattering = scattering_of(material, scene.settings.integrator);
-        c.mirror = !kernels::traits_of(scattering).is_interface;
+        c.mirror = !kernels::traits_of(scattering_of(material, scene.settings.integrator)).is_interface;
         const glm::dvec3 w = lamp.centre - ball.centre;
         c.wx = f(in.in_units(w.x)), c.wy = f(in.in_units(w.y)), c.wz = f(in.in_units(w.z));
+        c.roughness = f(p.roughness);
         c.lamp_radius = spheres.radius[c.lamp];
-        if (scattering == kernels::Scattering::glossy) {
-            c.roughness = f(material.roughness);
-            c.lamp_radius = f(in.in_units(blurred_radius(glm::length(w), lamp.radius, material.roughness)));
-        }
+        if (p.roughness > 0) c.lamp_radius = f(in.in_units(blurred_radius(glm::length(w), lamp.radius, p.roughness)));
         glm::dvec3 colour = *lamp.emission;
         if (p.chords == 0) colour *= material.rho;
         if (p.chords > 0) colour *= material.rho_t * material.rho_t;

@@ -197,12 +197,7 @@ TEST_P(CausticStages, SampleEveryWayToTheLampAndWeighAsChanceDoes) {
     RecordProperty("excess", std::to_string(excess / std::sqrt(1.0 * tests)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Isas, CausticStages, testing::ValuesIn([] {
-                             std::vector<Isa> isas;
-                             for (const Isa isa : all_isas)
-                                 if (isa_supported(isa)) isas.push_back(isa);
-                             return isas;
-                         }()),
+INSTANTIATE_TEST_SUITE_P(Isas, CausticStages, testing::ValuesIn(supported_isas()),
                          [](const testing::TestParamInfo<Isa>& of) { return std::string(isa_name(of.param)); });
 
 }  // namespace

@@ -150,12 +150,14 @@ TEST_P(CausticsOn, RoughSurfacesAsOnDiffuseOnes) {
 INSTANTIATE_TEST_SUITE_P(Floors, CausticsOn, testing::Values(0.15, 0.7, -0.3));  // negative: translucent
 
 TEST(CausticsDepth, CountsTheEventsAtTheBall) {
-    for (std::uint32_t depth = 0; depth <= 4; ++depth) {
-        Scene scene = screened(chalk);
-        add_sphere(scene, above, 1.1, glass(1, 1.5));
-        scene.settings.depth = depth;
-        expect_agreement_of({variant("chance", false), variant("sampled", true)}, scene,
-                            {.samples = 4096, .seeds = 4, .reference_samples = 1000});
+    for (const auto& [ball, deepest] : {std::pair{glass(1, 1.5), 4u}, {glossy(0.9, 0.1), 3u}}) {
+        for (std::uint32_t depth = 0; depth <= deepest; ++depth) {
+            Scene scene = screened(chalk);
+            add_sphere(scene, above, 1.1, ball);
+            scene.settings.depth = depth;
+            expect_agreement_of({variant("chance", false), variant("sampled", true)}, scene,
+                                {.samples = 4096, .seeds = 4, .reference_samples = 1000});
+        }
     }
 }
 

@@ -194,12 +194,7 @@ TEST_P(PointCausticStages, CarryWhatRaysBesideThemSay) {
     EXPECT_LE(rough, paths / 300) << "of " << paths;  // next to folds
 }
 
-INSTANTIATE_TEST_SUITE_P(Isas, PointCausticStages, testing::ValuesIn([] {
-                             std::vector<Isa> isas;
-                             for (const Isa isa : all_isas)
-                                 if (isa_supported(isa)) isas.push_back(isa);
-                             return isas;
-                         }()),
+INSTANTIATE_TEST_SUITE_P(Isas, PointCausticStages, testing::ValuesIn(supported_isas()),
                          [](const testing::TestParamInfo<Isa>& of) { return std::string(isa_name(of.param)); });
 
 }  // namespace
