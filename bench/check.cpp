@@ -63,6 +63,13 @@ std::map<std::uint32_t, std::uint32_t> by_key(const std::vector<Column>& columns
     return keyed;
 }
 
+/// Stages leave some fields of their results alone, such as the targets of shadow rays that all end on one sphere: what
+/// is there must not be left over from another call.
+void clear(WaveStorage<float>& storage, std::uint32_t parts) {
+    each_array(storage, parts, kernels::round_up(storage.slot_count), kernels::ray_capacity(storage.slot_count),
+               [](const char*, auto* array, std::size_t words) { std::memset(array, 0, words * sizeof *array); });
+}
+
 struct Difference {
     std::size_t records = 0;    ///< compared
     std::size_t different = 0;  ///< of them
@@ -111,9 +118,11 @@ std::string fault_of(const std::vector<const StageCall*>& calls, const kernels::
     const bool to_the_byte = stages.isa != Isa::sse2;
     Difference sum;
     for (const StageCall* call : calls) {
-        call->before.restore(workspace.expected);
+        for (WaveStorage<float>* storage : {&workspace.expected, &workspace.work}) {
+            clear(*storage, call->results);
+            call->before.restore(*storage);
+        }
         const Runs expected = call->run(scalar, workspace.expected);
-        call->before.restore(workspace.work);
         const Runs found = call->run(stages, workspace.work);
         const auto d = difference(*call, workspace.expected, expected, workspace.work, found, to_the_byte);
         if (sum.different == 0) sum.field = d.field;
