@@ -41,7 +41,7 @@ TEST(Info, FollowsTheOptions) {
 TEST(Info, OrdinaryScenesAreComputedInFloat) {
     for (const char* scene : {"assignment_01", "assignment_02", "assignment_03", "assignment_04", "assignment_05",
                               "assignment_06", "assignment_07", "assignment_08", "sample", "showcase", "bench/like_46",
-                              "bench/like_484", "bench/many_lights", "bench/lamp_behind_glass"})
+                              "bench/like_484", "bench/many_lights", "bench/lamp_behind_glass", "bench/point_light"})
         EXPECT_THAT(orrery({"info", scene_file(std::string(scene) + ".json")}).output,
                     ContainsRegex("precision +float\n"))
             << scene;
