@@ -13,8 +13,8 @@ namespace orrery {
 /// By power: three quarters of the choices go by emitted power, the sum of the channels of 4 pi I or of 4 pi^2 r^2 L,
 /// and one quarter goes round. What is near may be lit by a weak light alone, whose share beside a strong one's could
 /// be as small as it likes; so its variance is four times that of `uniform` at worst, and it is found at all.
-/// (Measured: nothing to tell between none and 0.3 on 64 lamps of various powers, but on the showcase, whose small
-/// lamps stand close, the squared error falls by 0.26 at a tenth, by 0.4 at three.)
+/// (Measured: nothing to tell between none and 0.3 on 64 lamps of various powers, but on a still life with a small
+/// lamp in its middle, the squared error falls by 0.26 at a tenth, by 0.4 at three.)
 std::vector<double> light_weights(const Scene& scene, LightChoice rule, bool area);
 
 /// The columns of a LightTable that say so; moves leave them where they are.

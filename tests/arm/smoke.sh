@@ -50,7 +50,7 @@ cmake --build "$folder/build" --target orrery
 arm() { qemu-aarch64 -L /usr/aarch64-linux-gnu -E LD_LIBRARY_PATH="$shared" "$folder/build/orrery" "$@"; }
 here() { "$root/build/orrery" "$@"; }
 
-# Every integrator, float and double, a loop over spheres and a tree.
+# Every integrator, float and double, a loop over spheres and a tree, caustics of lamps and of a point light.
 render_both() {
     name=$1
     shift
@@ -65,5 +65,6 @@ render_both() {
 render_both whitted "$root/scenes/assignment_01.json" --size 48x48 --spp 4
 render_both paths "$root/scenes/assignment_03.json" --size 48x48 --spp 16
 render_both lamps "$root/scenes/assignment_08.json" --size 48x48 --spp 16 --precision double
-render_both tree "$root/scenes/showcase.json" --size 64x36 --spp 4
+render_both caustics "$root/scenes/showcase.json" --size 64x36 --spp 4
+render_both tree "$root/scenes/bench/like_484.json" --size 48x48 --spp 4
 render_both depth "$root/scenes/assignment_05.json" --size 48x48 --spp 4 --integrator depth
