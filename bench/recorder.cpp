@@ -26,10 +26,9 @@ Recording record(const Plan& plan, std::uint32_t waves) {
     Recording recording;
     recording.wave_size = choose_wave_size(plan, 0);
     const auto& stages = kernels::stages_for(best_isa());
-    Film film(plan.settings().width, plan.settings().height);
     const std::function<bool()> never;
     const Cancellation cancellation(never);
-    Wave<float> wave(plan, stages, film, cancellation, recording.wave_size);
+    Wave<float> wave(plan, stages, cancellation, recording.wave_size);
     wave.observer = [&](const orrery::StageCall& call, const StageRun<float>& run) {
         const auto& [stage, bounce, records, bytes, lanes, detail, moved_bytes, target] = call;
         const bool recorded = stage.writes != 0 && records.count != 0 && (bounce == 0 || bounce == 1 || bounce == 3);
@@ -51,6 +50,7 @@ Recording record(const Plan& plan, std::uint32_t waves) {
         const std::uint32_t pixels = std::max(1u, recording.wave_size / plan.samples());  // one wave of it is enough
         tile.x1 = std::min(tile.x1, tile.x0 + pixels);
         tile.y1 = std::min(tile.y1, tile.y0 + std::max(1u, pixels / (tile.x1 - tile.x0)));
+        wave.film.clear(tile.width(), tile.height());
         render_tile(wave, {tile, whole_pattern(plan)});
     }
     return recording;

@@ -131,14 +131,16 @@ ClassErrors class_errors(const Scene& scene, const RenderSettings& settings, std
     copy.settings.estimator = Estimator::uniform;
     copy.settings.samples = samples;
     const Plan plan(std::move(copy));
-    Film film(settings.width, settings.height);
     const std::function<bool()> never;
     const Cancellation cancellation(never);
-    Wave<float> wave(plan, kernels::stages_for(best_isa()), film, cancellation, choose_wave_size(plan, 0));
+    Wave<float> wave(plan, kernels::stages_for(best_isa()), cancellation, choose_wave_size(plan, 0));
     Watch watch(wave, std::size_t{settings.width} * settings.height);
     wave.observer = [&](const StageCall& call, const StageRun<float>& run) { return watch(call, run); };
     const Tiling tiles(settings.width, settings.height, tile_side(plan.samples()));
-    for (std::size_t i = 0; i < tiles.size(); ++i) render_tile(wave, {tiles[i], whole_pattern(plan)});
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        wave.film.clear(tiles[i].width(), tiles[i].height());
+        render_tile(wave, {tiles[i], whole_pattern(plan)});
+    }
     watch.end_wave();
     return watch.errors(plan.samples());
 }

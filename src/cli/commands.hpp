@@ -18,6 +18,9 @@ Work add_render(CLI::App& app);
 /// `orrery info`: scene -> what render would do, and why.
 Work add_info(CLI::App& app);
 
+/// `orrery develop`: films -> images.
+Work add_develop(CLI::App& app);
+
 /// `orrery generate`: a kind of world -> a scene file.
 Work add_generate(CLI::App& app);
 

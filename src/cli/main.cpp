@@ -24,6 +24,7 @@ struct Command {
 
 constexpr Command commands[] = {{"render", "Render a scene to an image", add_render},
                                 {"info", "Show how a scene would be rendered, and why so", add_info},
+                                {"develop", "Make images of films that render has kept", add_develop},
                                 {"generate", "Write a scene of as many spheres as you like", add_generate},
                                 {"compare", "Measure how much two images differ", add_compare}};
 

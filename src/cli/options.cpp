@@ -67,6 +67,15 @@ double parse_duration(std::string_view text) {
     throw unexpected(text, "a time such as 30s, 2m, 1.5h or 500ms");
 }
 
+Shard parse_shard(std::string_view text) {
+    constexpr std::uint32_t most = 1u << 20;
+    const std::size_t slash = std::min(text.find('/'), text.size());
+    const auto of = whole_number(text.substr(std::min(slash + 1, text.size())), 1, most);
+    const auto number = whole_number(text.substr(0, slash), 1, of.value_or(1));
+    if (number && of) return {*number, *of};
+    throw unexpected(text, "K/N, the K-th of N parts, such as 1/4");
+}
+
 Isa parse_isa(std::string_view text) {
     if (text == "auto") return best_isa();
     const std::optional<Isa> isa = isa_from_name(text);

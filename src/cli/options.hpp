@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "cli/process.hpp"
+#include "film/film_state.hpp"
 #include "kernels/isa.hpp"
 
 namespace orrery {
@@ -40,6 +41,9 @@ double parse_share(std::string_view text);
 
 /// "30s", "2m", "1.5h" or "500ms", from a millisecond to a year: seconds. Throws UsageError.
 double parse_duration(std::string_view text);
+
+/// "2/8": which of how many parts. Throws UsageError.
+Shard parse_shard(std::string_view text);
 
 /// An instruction set this machine runs; "auto" is the best of them. Throws UsageError naming those it runs.
 Isa parse_isa(std::string_view text);

@@ -61,15 +61,19 @@ void require_different_files(const std::vector<fs::path>& read, const std::vecto
     }
 }
 
-Outputs choose_outputs(const Request& request, const Scene& scene) {
+Outputs choose_outputs(const Request& request, const RenderSettings& settings, const std::vector<fs::path>& read) {
     Outputs outputs;
     outputs.images = request.outputs;
+    outputs.film = request.film;
+    if (request.shard && !request.film) throw UsageError("--shard: found no --film, expected the film to keep it in");
+    if (request.shard && (!request.outputs.empty() || request.error_image))
+        throw UsageError("--shard: found an image to write, expected none: develop makes it of all shards' films");
     for (const fs::path& image : outputs.images) require_known_ending(image, "--output");
-    if (outputs.images.empty()) {
-        const fs::path& own = scene.settings.output;
+    if (outputs.images.empty() && !request.shard) {
+        const fs::path& own = settings.output;
         if (own.empty())
-            throw UsageError(fmt::format("{} names no output, expected --output FILE", scene.file.string()));
-        require_known_ending(own, scene.file.string() + ":/scene/renderer/output");
+            throw UsageError(fmt::format("{} names no output, expected --output FILE", read.front().string()));
+        require_known_ending(own, read.front().string() + ":/scene/renderer/output");
         outputs.images.push_back(own);
     }
     if (request.error_image) {
@@ -86,22 +90,24 @@ Outputs choose_outputs(const Request& request, const Scene& scene) {
     std::vector<fs::path> written = outputs.images;
     if (outputs.error_image) written.push_back(*outputs.error_image);
     if (outputs.stats) written.push_back(*outputs.stats);
-    require_different_files({scene.file}, written);
+    if (outputs.film) written.push_back(*outputs.film);
+    require_different_files(read, written);
     return outputs;
 }
 
-void require_writable(const Outputs& outputs, const Scene& scene) {
+void require_writable(const Outputs& outputs, const RenderSettings& settings) {
     const auto require_image = [&](const fs::path& image) {
-        AtomicFile(image, least_file_size(image_format(image), scene.settings.width, scene.settings.height));
+        AtomicFile(image, least_file_size(image_format(image), settings.width, settings.height));
     };
     for (const fs::path& image : outputs.images) {
         // A failure is left to AtomicFile, which says more about it.
         std::error_code error;
-        if (image == scene.settings.output && image.has_parent_path()) fs::create_directory(image.parent_path(), error);
+        if (image == settings.output && image.has_parent_path()) fs::create_directory(image.parent_path(), error);
         require_image(image);
     }
     if (outputs.error_image) require_image(*outputs.error_image);
     if (outputs.stats) AtomicFile{*outputs.stats};
+    if (outputs.film) AtomicFile{*outputs.film};
 }
 
 }  // namespace orrery

@@ -28,7 +28,7 @@ int write_all(int descriptor, std::string_view text) {
     return 0;
 }
 
-std::atomic<bool> deferred = false;
+std::atomic<bool> deferred = false, waiting = false;
 std::atomic<int> caught_signal = 0;
 std::atomic<const char*> loss = nullptr;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
@@ -53,7 +53,7 @@ extern "C" void on_stop_signal(int signal) {
     const int interrupted_error = errno;
     int none = 0;
     if (!deferred || !caught_signal.compare_exchange_strong(none, signal)) end_by(signal);
-    ring_in(60'000);
+    if (!waiting) ring_in(60'000);
     errno = interrupted_error;
 }
 
@@ -124,7 +124,10 @@ void Loss::say() {
         static_cast<void>(!::write(STDERR_FILENO, text, std::strlen(text)));
 }
 
-DeferredSignals::DeferredSignals() { deferred = true; }
+DeferredSignals::DeferredSignals(bool wait) {
+    waiting = wait;
+    deferred = true;
+}
 
 DeferredSignals::~DeferredSignals() { deferred = false; }
 

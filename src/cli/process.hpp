@@ -72,11 +72,11 @@ public:
 };
 
 /// While it lives, the first of those signals only raises a flag, for work that asks now and then whether to go on and
-/// then leaves nothing behind. Work that is slow to ask has 60 ms; then, or at a second signal, the program ends all
-/// the same.
+/// then leaves nothing behind. Work that is slow to ask has 60 ms, unless what it does then is worth waiting for; then,
+/// or at a second signal, the program ends all the same.
 class DeferredSignals {
 public:
-    DeferredSignals();
+    explicit DeferredSignals(bool wait);
     ~DeferredSignals();
     DeferredSignals(const DeferredSignals&) = delete;
     DeferredSignals& operator=(const DeferredSignals&) = delete;

@@ -156,6 +156,11 @@ std::string summary(const Plan& plan, const Goal& goal, const RenderStats& stats
                        stop_text(goal, stats.stopped_by));
 }
 
+std::string film_summary(double samples_per_pixel, const ImageError& error) {
+    return fmt::format("{:.4g} sample{} per pixel{}", samples_per_pixel, samples_per_pixel == 1 ? "" : "s",
+                       error_text(error.relative));
+}
+
 std::string profile_table(const RenderStats& stats) {
     const Profile& profile = stats.profile;
     const double whole = stats.seconds * stats.threads;
@@ -220,13 +225,12 @@ std::string statistics_json(const Plan& plan, const Goal& goal, const RenderStat
     return json_text(json);
 }
 
-Metadata image_metadata(const Plan& plan, ImageFormat format, const Making& making) {
-    const RenderSettings& settings = plan.settings();
-    Metadata metadata = {{"scene", plan.scene().file.filename().string()},
-                         {"seed", std::to_string(settings.seed)},
+Metadata image_metadata(const Making& making, ImageFormat format) {
+    Metadata metadata = {{"scene", making.scene},
+                         {"seed", std::to_string(making.settings.seed)},
                          {"samples", fmt::format("{}", making.samples)},
-                         {"options", canonical_options(settings, making.goal, format)},
-                         {"version", fmt::format("orrery {}", version())}};
+                         {"options", canonical_options(making.settings, making.goal, format)},
+                         {"version", fmt::format("orrery {}", making.version)}};
     if (making.content != "radiance") metadata.emplace_back("content", making.content);
     return metadata;
 }

@@ -19,18 +19,8 @@ constexpr std::uint32_t most_threads = 1024;
 
 void add_overrides(CLI::App& app, Overrides& overrides) {
     for (const Setting& setting : all_settings()) {
-        const std::string label = setting.kind == SettingKind::word     ? expected_text(setting)
-                                  : setting.kind == SettingKind::number ? "N"
-                                                                        : "WxH";
         const std::string other = setting.required ? "" : ", else " + text_of(setting, RenderSettings{});
-        add_option(app, "--" + std::string(setting.option), label,
-                   fmt::format("{} (default: the scene's{})", setting.meaning, other),
-                   [&](const std::string& text) {
-                       const auto value = value_of(setting, text);
-                       if (!value) throw unexpected(text, expected_text(setting));
-                       overrides[&setting] = *value;
-                   })
-            ->group(std::string(setting.group));
+        add_override(app, overrides, setting, "the scene's" + other);
     }
 }
 
@@ -103,6 +93,37 @@ void add_scene(CLI::App& app, Request& request) {
         ->group("Scene");
 }
 
+void add_override(CLI::App& app, Overrides& overrides, const Setting& setting, const std::string& otherwise) {
+    const std::string label = setting.kind == SettingKind::word     ? expected_text(setting)
+                              : setting.kind == SettingKind::number ? "N"
+                                                                    : "WxH";
+    add_option(app, "--" + std::string(setting.option), label,
+               fmt::format("{} (default: {})", setting.meaning, otherwise),
+               [&setting, &overrides](const std::string& text) {
+                   const auto value = value_of(setting, text);
+                   if (!value) throw unexpected(text, expected_text(setting));
+                   overrides[&setting] = *value;
+               })
+        ->group(std::string(setting.group));
+}
+
+void add_outputs(CLI::App& app, Request& request, const std::string& otherwise) {
+    add_option(app, "-o,--output", "FILE",
+               "Image to write: .ppm or .png (8 bit, tone mapped), .pfm or .exr (linear radiance); repeat it for more" +
+                   otherwise,
+               [&](const std::string& text) { request.outputs.emplace_back(text); })
+        // Each -o is read on its own: a list option of CLI11 would also swallow the SCENE after it.
+        ->trigger_on_parse()
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+        ->group("Image");
+}
+
+void add_error_image(CLI::App& app, Request& request) {
+    add_option(app, "--error-image", "FILE", "Write every pixel's standard error, linear: .pfm or .exr",
+               [&](const std::string& text) { request.error_image = text; })
+        ->group("Reports");
+}
+
 void add_settings(CLI::App& app, Request& request) {
     add_overrides(app, request.overrides);
     add_stops(app, request);
@@ -119,6 +140,9 @@ Goal goal_of(const Request& request) {
                     .seconds = request.seconds.value_or(0),
                     .samples = samples != request.overrides.end() ? samples->second[0] : 0,
                     .adaptive = request.adaptive.value_or(true)};
+    if (request.shard && request.shard->of > 1 && goal.asked())
+        throw UsageError(fmt::format("--shard: found --{} beside it, which is of the whole image, expected --spp alone",
+                                     goal.error > 0 ? "error" : "time"));
     if (request.adaptive && !goal.asked())
         throw UsageError("--adaptive: found no stop to adapt to, expected --error or --time beside it");
     return goal;

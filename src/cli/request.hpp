@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "film/film_state.hpp"
 #include "kernels/isa.hpp"
 #include "plan/plan.hpp"
 #include "scene/settings.hpp"
@@ -27,6 +28,10 @@ struct Request {
     std::optional<double> error;    ///< --error, as a share: 1 % is 0.01
     std::optional<double> seconds;  ///< --time
     std::optional<bool> adaptive;
+    std::optional<std::filesystem::path> film;
+    std::vector<std::filesystem::path> films;  ///< develop only
+    std::optional<double> film_every;          ///< seconds
+    std::optional<Shard> shard;
     std::optional<std::string> stats;  ///< a file, or "-" for standard output
     unsigned threads = 0;              ///< 0: all cores
     Isa isa = best_isa();              ///< supported by this machine
@@ -40,6 +45,10 @@ struct Request {
 Goal goal_of(const Request& request);
 
 /// Declare options that fill `request`.
+void add_outputs(CLI::App& app, Request& request, const std::string& otherwise);
+void add_error_image(CLI::App& app, Request& request);
+/// `otherwise`: its default in words.
+void add_override(CLI::App& app, Overrides& overrides, const Setting& setting, const std::string& otherwise);
 void add_scene(CLI::App& app, Request& request);
 /// The settings, when to stop, and what to run on.
 void add_settings(CLI::App& app, Request& request);

@@ -1,9 +1,48 @@
 #include "film/film.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
 namespace orrery {
+
+void Film::clear(std::uint32_t width, std::uint32_t height) {
+    width_ = width;
+    height_ = height;
+    const std::size_t pixels = std::size_t{width} * height;
+    pixels_.assign(pixels, {});
+    spreads_.assign(pixels, {});
+    differences_.assign(contrasting_ == Contrasting::one ? pixels : 0, {});
+}
+
+void Film::cut(const Tile& tile, Film& patch) const {
+    patch.clear(tile.width(), tile.height());
+    each_run(tile, width_,
+             [&](std::size_t from, std::size_t to, std::uint32_t count) { patch.copy(to, *this, from, count); });
+}
+
+void Film::paste(const Tile& tile, const Film& patch) {
+    each_run(tile, width_,
+             [&](std::size_t to, std::size_t from, std::uint32_t count) { copy(to, patch, from, count); });
+}
+
+void Film::copy(std::size_t to, const Film& other, std::size_t from, std::uint32_t count) {
+    std::copy_n(other.pixels_.data() + from, count, pixels_.data() + to);
+    std::copy_n(other.spreads_.data() + from, count, spreads_.data() + to);
+    if (contrasting_ == Contrasting::one)
+        std::copy_n(other.differences_.data() + from, count, differences_.data() + to);
+}
+
+Film::Content Film::content(std::size_t pixel) const {
+    const auto& [r, g, b, samples] = pixels_[pixel];
+    return {{r, g, b}, samples, spreads_[pixel], contrasting_ == Contrasting::one ? differences_[pixel] : Rgb64{}};
+}
+
+void Film::set_content(std::size_t pixel, const Content& content) {
+    pixels_[pixel] = {content.sum.r, content.sum.g, content.sum.b, content.samples};
+    spreads_[pixel] = content.spread;
+    if (contrasting_ == Contrasting::one) differences_[pixel] = content.difference;
+}
 
 Rgb Film::mean(std::size_t pixel) const {
     const Pixel& sum = pixels_[pixel];

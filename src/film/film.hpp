@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "film/tiling.hpp"
 #include "image/image.hpp"
 
 namespace orrery {
@@ -46,12 +47,16 @@ struct PixelEstimate {
 class Film {
 public:
     Film(std::uint32_t width, std::uint32_t height, Contrasting contrasting = Contrasting::many)
-        : width_(width),
-          height_(height),
-          contrasting_(contrasting),
-          pixels_(std::size_t{width} * height),
-          spreads_(std::size_t{width} * height),
-          differences_(contrasting == Contrasting::one ? pixels_.size() : 0) {}
+        : contrasting_(contrasting) {
+        clear(width, height);
+    }
+
+    /// Makes it one of this size without any samples.
+    void clear(std::uint32_t width, std::uint32_t height);
+    /// What the pixels of a tile hold, to and from a film of the tile's size; those of the other colour stay. Both have
+    /// the same contrasting.
+    void cut(const Tile& tile, Film& patch) const;
+    void paste(const Tile& tile, const Film& patch);
 
     std::uint32_t width() const { return width_; }
     std::uint32_t height() const { return height_; }
@@ -90,6 +95,16 @@ public:
         return dropped;
     }
 
+    /// All that is known of a pixel.
+    struct Content {
+        Rgb64 sum;
+        std::uint64_t samples = 0;
+        Spread spread;
+        Rgb64 difference;  ///< only for Contrasting::one
+    };
+    Content content(std::size_t pixel) const;
+    void set_content(std::size_t pixel, const Content& content);
+
     /// What the samples of a pixel tell about its error; whoever learns more, sets it.
     const Spread& spread(std::size_t pixel) const { return spreads_[pixel]; }
     void set_spread(std::size_t pixel, const Spread& spread) { spreads_[pixel] = spread; }
@@ -113,6 +128,8 @@ private:
         std::uint64_t samples = 0;
     };
 
+    void copy(std::size_t to, const Film& other, std::size_t from, std::uint32_t count);
+
     template <class Real>
     static bool add_to(Pixel& sum, Real r, Real g, Real b) {
         if (!keeps(r, g, b)) return false;
@@ -123,7 +140,7 @@ private:
         return true;
     }
 
-    std::uint32_t width_, height_;
+    std::uint32_t width_ = 0, height_ = 0;
     Contrasting contrasting_;
     std::vector<Pixel> pixels_;
     std::vector<Spread> spreads_;     ///< apart: what a render sums most often stays dense

@@ -36,23 +36,29 @@ constexpr std::uint32_t most_samples_ever = 1u << 30;
 
 }  // namespace
 
-Passes::Passes(const Plan& plan, const Goal& goal)
+FilmState Passes::layout() { return {.side = region_side, .halves = true}; }
+
+Passes::Passes(const Plan& plan, const Goal& goal, const FilmState& state)
     : goal_(goal),
       stratified_(plan.settings().estimator == Estimator::stratified),
-      doubling_(plan.settings().estimator == Estimator::sobol && goal.adaptive) {
-    const Tiling tiling(plan.settings().width, plan.settings().height, region_side);
+      doubling_(plan.settings().estimator == Estimator::sobol && goal.adaptive),
+      count_(state.passes),
+      in_pilot_(state.pilot),
+      share_before_(state.share_before),
+      share_after_(state.share_after) {
+    const Tiling tiling = state.tiling(plan.settings().width, plan.settings().height);
     for (std::size_t i = 0; i < tiling.size(); ++i) {
-        for (const Colour colour : {Colour::black, Colour::white}) {
-            Tile half = tiling[i];
-            half.colour = colour;
-            const auto pixels = static_cast<double>(half.pixels());
-            if (pixels == 0) continue;
-            tiles_.push_back(half);
-            regions_.push_back({.pixels = pixels, .taken = 0, .scatter = pixels});
-            all_pixels_ += pixels;
-        }
+        const FilmRegion& region = state.regions[i];
+        const auto pixels = static_cast<double>(tiling[i].pixels());
+        tiles_.push_back(tiling[i]);
+        taken_.push_back(static_cast<std::uint32_t>(region.taken + region.asked()));
+        regions_.push_back({.pixels = pixels,
+                            .taken = static_cast<double>(taken_[i]),
+                            .scatter = count_ > 0 ? region.scatter : pixels});
+        all_pixels_ += pixels;
+        total_ += pixels * taken_[i];
     }
-    taken_.resize(tiles_.size());
+    added_ = total_;  // the rate of all passes together
 }
 
 std::uint32_t Passes::least_samples() const { return *std::ranges::min_element(taken_); }
@@ -231,11 +237,11 @@ std::vector<double> Passes::wanted(double limit) const {
     return samples;
 }
 
-std::vector<Task> Passes::next(double elapsed) {
+bool Passes::next(double elapsed, FilmState& state) {
     if (count_ > 0) rate_ = added_ / std::max(elapsed - started_, 1e-6);
     if (const auto reason = reached(elapsed)) {
         reason_ = *reason;
-        return {};
+        return false;
     }
     if (enough_known() && share(total_, elapsed) >= pilot_share) in_pilot_ = false;
     const double limit = room(elapsed, time_to_plan);
@@ -246,26 +252,30 @@ std::vector<Task> Passes::next(double elapsed) {
     if (size(pass) == 0) pass = smallest(samples, room(elapsed, 1));
     if (size(pass) == 0) {
         reason_ = limit < ceiling() ? StopReason::time : StopReason::samples;
-        return {};
+        return false;
     }
-    return begin(pass, elapsed);
+    begin(pass, elapsed, state);
+    return true;
 }
 
-std::vector<Task> Passes::begin(const std::vector<Pattern>& pass, double elapsed) {
+void Passes::begin(const std::vector<Pattern>& pass, double elapsed, FilmState& state) {
     share_before_ = share(total_, elapsed);
-    std::vector<Task> tasks;
     added_ = size(pass);
     for (std::size_t i = 0; i < pass.size(); ++i) {
-        if (pass[i].samples() == 0) continue;
-        tasks.push_back({tiles_[i], pass[i]});
+        FilmRegion& region = state.regions[i];
+        region.strata = std::max(pass[i].strata, 1u);
+        region.visits = pass[i].samples() > 0 ? pass[i].visits : 0;
+        region.scatter = regions_[i].scatter;
         taken_[i] += pass[i].samples();
         regions_[i].taken = taken_[i];
     }
     total_ += added_;
     share_after_ = share(total_, rate_ > 0 ? elapsed + added_ / rate_ : elapsed);
     started_ = elapsed;
-    ++count_;
-    return tasks;
+    state.passes = ++count_;
+    state.pilot = in_pilot_;
+    state.share_before = share_before_;
+    state.share_after = share_after_;
 }
 
 }  // namespace orrery

@@ -21,19 +21,24 @@
 #include <vector>
 
 #include "film/error.hpp"
+#include "film/film_state.hpp"
 #include "wavefront/allocation.hpp"
 #include "wavefront/goal.hpp"
-#include "wavefront/tile.hpp"
+#include "wavefront/pattern.hpp"
 
 namespace orrery {
 
 class Passes {
 public:
-    Passes(const Plan& plan, const Goal& goal);
+    /// How regions are laid out.
+    static FilmState layout();
 
-    /// Tasks of the next pass, `elapsed` seconds after the start; empty when enough is done. All of it is to be
-    /// rendered, and the error to be learnt, before the next call.
-    std::vector<Task> next(double elapsed);
+    /// Goes on where `state`, of that layout, is: in a pass, whose error is to be learnt next, or before the first.
+    Passes(const Plan& plan, const Goal& goal, const FilmState& state);
+
+    /// Asks the next pass of `state`, which has all that was asked before, `elapsed` seconds after the start; false
+    /// when enough is done. All of it is to be rendered, and the error to be learnt, before the next call.
+    bool next(double elapsed, FilmState& state);
 
     /// What parts of the image are told apart, and how large the error of each is now.
     const std::vector<Tile>& regions() const { return tiles_; }
@@ -46,7 +51,7 @@ public:
     double share_before() const { return share_before_; }
     double share_after() const { return share_after_; }
 
-    std::uint32_t count() const { return count_; }                ///< passes
+    std::uint32_t count() const { return count_; }                ///< passes begun
     double mean_samples() const { return total_ / all_pixels_; }  ///< per pixel
     std::uint32_t least_samples() const;
     std::uint32_t most_samples() const;
@@ -69,7 +74,7 @@ private:
     std::vector<Pattern> patterns(const std::vector<double>& wanted, bool keep_below) const;
     std::vector<Pattern> doublings(const std::vector<double>& wanted, bool keep_below) const;
     std::vector<Pattern> smallest(const std::vector<double>& wanted, double limit) const;
-    std::vector<Task> begin(const std::vector<Pattern>& pass, double elapsed);
+    void begin(const std::vector<Pattern>& pass, double elapsed, FilmState& state);
 
     Goal goal_;
     bool stratified_;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "film/film.hpp"
 #include "plan/plan.hpp"
 
 namespace orrery {
@@ -20,6 +21,11 @@ struct Pattern {
 inline Pattern whole_pattern(const Plan& plan) {
     const bool stratified = plan.settings().estimator == Estimator::stratified;
     return {plan.strata(), stratified ? 1 : plan.samples(), 0};
+}
+
+/// All samples of one of Sobol's sequences against all of the other.
+inline Contrasting contrasting_of(const RenderSettings& settings) {
+    return settings.estimator == Estimator::sobol ? Contrasting::one : Contrasting::many;
 }
 
 }  // namespace orrery

@@ -14,12 +14,14 @@ class Progress {
 public:
     explicit Progress(const RenderOptions& options) : options_(options) {}
 
-    /// What follows is `work` units, which take the render from one share of all to another.
-    void begin(double from, double to, double work) {
+    /// What follows is `work` units, which take the render from one share of all to another. Some are done already.
+    void begin(double from, double to, double work, double done = 0) {
         from_ = from;
         to_ = to;
         work_ = work;
-        done_ = 0;
+        done_ = static_cast<std::uint64_t>(done);
+        // Whoever foretells what is left must know what was there.
+        if (options_.progress) options_.progress(from + (to - from) * (work > 0 ? done / work : 0), rays_);
     }
     void done(std::uint64_t work, std::uint64_t rays) {
         const std::uint64_t done = done_ += work;

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "film/error.hpp"
+#include "film/film_state.hpp"
 #include "kernels/isa.hpp"
 #include "plan/plan.hpp"
 #include "wavefront/goal.hpp"
@@ -14,8 +16,19 @@
 
 namespace orrery {
 
+class Ledger;
+
 /// Of a larger wave one stage would take tenths of a second, and hear nothing meanwhile.
 inline constexpr std::uint32_t largest_wave = 1u << 16;
+
+/// How the film of a render is kept while it lasts.
+struct KeepFilm {
+    /// Saves it, with Ledger::write. Called by one thread at a time while others work, and once when all is done or an
+    /// exception ends the render. Empty: never.
+    std::function<void(const Ledger&)> save = {};
+    double every = 60;      ///< seconds
+    double most_share = 0;  ///< of the time that saving may take: longer than that apart; 0: no matter how long
+};
 
 struct RenderOptions {
     unsigned threads = 0;         ///< 0: all cores this process may use
@@ -31,6 +44,7 @@ struct RenderOptions {
     /// Called between passes with the error so far, where there is a goal. May be empty.
     std::function<void(const ImageError&)> pass_done = {};
     bool standard_error = false;  ///< also the error of every pixel, as an image
+    KeepFilm keep = {};
 };
 
 struct Interrupted {};
@@ -70,5 +84,13 @@ struct RenderResult {
 /// is dropped as a whole: its slow tiles alone would be the bright ones. Throws std::invalid_argument on an unsupported
 /// ISA or too large a wave, Interrupted as asked, NothingInTime where not even the first pass ends in time.
 RenderResult render(const Plan& plan, const RenderOptions& options);
+
+/// A film of which nothing is there, and for a number of samples, not a goal, all is asked of the shard.
+std::unique_ptr<Ledger> begin_film(const Plan& plan, const Goal& goal, Shard shard = {});
+
+/// The same on a film that was begun or read from a file: what it has is not done again, and the bytes are those of a
+/// render that was never stopped. A pass that was under way is done whatever the goal now is. Of one of several shards
+/// there is no image.
+RenderResult render(const Plan& plan, const RenderOptions& options, Ledger& ledger);
 
 }  // namespace orrery

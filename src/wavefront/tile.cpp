@@ -27,8 +27,9 @@ void trace(Wave<Real>& wave) {
 /// Traces the wave's slots and hands their radiance to the film, in slot order: a pixel's samples are summed in the
 /// order of their numbers, whatever the wave size.
 template <class Real>
-void flush(Wave<Real>& wave) {
+void flush(Wave<Real>& wave, const Tile& tile) {
     if (wave.count == 0) return;
+    const std::uint32_t width = wave.plan.settings().width;
     wave.cancellation.check();
     trace(wave);
     const auto& slots = wave.storage.slots;
@@ -36,8 +37,11 @@ void flush(Wave<Real>& wave) {
         std::uint32_t end = s + 1;
         while (end < wave.count && slots.pixel[end] == slots.pixel[s]) ++end;
         const Real* const radiance = slots.radiance + std::size_t{4} * s;
-        wave.counters.dropped_samples += wave.film.add(slots.pixel[s], radiance, end - s);
-        wave.contrasts.add(wave.film, slots.pixel[s], radiance, end - s);
+        const auto pixel = static_cast<std::uint32_t>(slots.pixel[s]);
+        const std::uint32_t x = pixel % width - tile.x0, y = pixel / width - tile.y0;
+        const std::size_t place = std::size_t{y} * tile.width() + x;
+        wave.counters.dropped_samples += wave.film.add(place, radiance, end - s);
+        wave.contrasts.add(wave.film, place, radiance, end - s);
         s = end;
     }
     wave.count = 0;
@@ -77,13 +81,6 @@ std::uint32_t fill(Wave<Real>& wave, std::uint32_t x, std::uint32_t y, const Pat
 
 }  // namespace
 
-std::uint32_t Tile::pixels() const {
-    const std::uint32_t all_pixels = (x1 - x0) * (y1 - y0);
-    if (colour == Colour::all) return all_pixels;
-    // Fields of the colour of the top left one are the half, rounded up.
-    return has(x0, y0) ? (all_pixels + 1) / 2 : all_pixels / 2;
-}
-
 std::uint32_t choose_wave_size(const Plan& plan, std::uint32_t asked) {
     if (asked > largest_wave) throw std::invalid_argument("too large a wave");
     std::uint32_t size = asked != 0 ? asked : default_wave_size;
@@ -93,7 +90,7 @@ std::uint32_t choose_wave_size(const Plan& plan, std::uint32_t asked) {
 
 template <class Real>
 void render_tile(Wave<Real>& wave, const Task& task) {
-    const auto& [tile, pattern] = task;
+    const auto& [tile, pattern, region] = task;
     wave.camera = wave.tables.camera;
     wave.camera.cell_width = static_cast<Real>(wave.plan.cell_width(pattern.strata));
     wave.camera.cell_height = static_cast<Real>(-wave.plan.cell_height(pattern.strata));
@@ -102,12 +99,12 @@ void render_tile(Wave<Real>& wave, const Task& task) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
             if (!tile.has(x, y)) continue;
             for (std::uint32_t sample = 0; sample < pattern.samples();) {
-                if (wave.count == wave.storage.slot_count) flush(wave);
+                if (wave.count == wave.storage.slot_count) flush(wave, tile);
                 sample = fill(wave, x, y, pattern, sample);
             }
         }
     }
-    flush(wave);
+    flush(wave, tile);
 }
 
 template void render_tile(Wave<float>&, const Task&);

@@ -3,6 +3,7 @@
 
 #include "film/contrasts.hpp"
 #include "wavefront/cancellation.hpp"
+#include "wavefront/pattern.hpp"
 #include "wavefront/pipeline.hpp"
 #include "wavefront/render.hpp"
 
@@ -16,16 +17,16 @@ struct WaveCounters {
     std::uint64_t dropped_samples = 0;
 };
 
-/// Owned by one thread; the plan, the stages and the film are shared, the film's pixels by tile.
+/// Owned by one thread; the plan and the stages are shared.
 template <class Real>
 struct Wave {
-    Wave(const Plan& the_plan, const kernels::Stages<Real>& the_stages, Film& the_film, const Cancellation& cancels,
+    Wave(const Plan& the_plan, const kernels::Stages<Real>& the_stages, const Cancellation& cancels,
          std::uint32_t slots)
         : plan(the_plan),
           tables(the_plan.tables<Real>()),
           stages(the_stages),
           pipeline(the_plan, the_stages),
-          film(the_film),
+          film(0, 0, contrasting_of(the_plan.settings())),
           cancellation(cancels),
           camera(tables.camera),
           storage(the_plan.needs(), the_plan.settings().depth, slots) {}
@@ -35,7 +36,7 @@ struct Wave {
     const kernels::Stages<Real>& stages;
     const Pipeline<Real> pipeline;
     StageObserver<Real> observer{};  ///< mostly none
-    Film& film;
+    Film film;                       ///< of a tile
     const Cancellation& cancellation;
     kernels::CameraTable<Real> camera;  ///< with the cells of the task being rendered
     Contrasts<Real> contrasts;          ///< of that task

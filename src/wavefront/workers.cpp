@@ -16,10 +16,10 @@ std::uint64_t rays_of(const WaveCounters& counters) { return counters.closest_ra
 }  // namespace
 
 template <class Real>
-Workers<Real>::Workers(const Plan& plan, const RenderOptions& options, Film& film, const Cancellation& cancellation)
+Workers<Real>::Workers(const Plan& plan, const RenderOptions& options, Ledger& ledger, const Cancellation& cancellation)
     : plan_(plan),
       stages_(supported_stages<Real>(options.isa)),
-      film_(film),
+      ledger_(ledger),
       cancellation_(cancellation),
       wave_size_(choose_wave_size(plan, options.wave_size)),
       first_tick_(tick_count()),
@@ -30,25 +30,23 @@ Workers<Real>::Workers(const Plan& plan, const RenderOptions& options, Film& fil
 template <class Real>
 Wave<Real>& Workers<Real>::wave_of(unsigned member) {
     std::unique_ptr<Wave<Real>>& wave = waves_[member];
-    if (!wave) wave = std::make_unique<Wave<Real>>(plan_, stages_, film_, cancellation_, wave_size_);
+    if (!wave) wave = std::make_unique<Wave<Real>>(plan_, stages_, cancellation_, wave_size_);
     return *wave;
 }
 
 template <class Real>
-void Workers<Real>::run(std::span<const Task> tasks, Progress& progress) {
+void Workers<Real>::run(Progress& progress, Saver& saver) {
+    const std::vector<Task> tasks = ledger_.tasks();
     team_.each(tasks.size(), [&](std::size_t i, unsigned member) {
+        const Task& task = tasks[i];
         Wave<Real>& wave = wave_of(member);
-        const std::uint64_t before = rays_of(wave.counters);
-        render_tile(wave, tasks[i]);
-        progress.done(tasks[i].samples(), rays_of(wave.counters) - before);
+        const std::uint64_t rays_before = rays_of(wave.counters), dropped_before = wave.counters.dropped_samples;
+        ledger_.take(task, wave.film);
+        render_tile(wave, task);
+        ledger_.put(task, wave.film, wave.counters.dropped_samples - dropped_before);
+        progress.done(task.samples(), rays_of(wave.counters) - rays_before);
+        saver.tick();
     });
-}
-
-template <class Real>
-std::uint64_t Workers<Real>::dropped_samples() const {
-    std::uint64_t sum = 0;
-    for (const auto& wave : waves_) sum += wave ? wave->counters.dropped_samples : 0;
-    return sum;
 }
 
 template <class Real>

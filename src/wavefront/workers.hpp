@@ -2,11 +2,11 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "system/threads.hpp"
 #include "wavefront/progress.hpp"
+#include "wavefront/saver.hpp"
 #include "wavefront/tile.hpp"
 
 namespace orrery {
@@ -15,15 +15,13 @@ template <class Real>
 class Workers {
 public:
     /// Throws std::invalid_argument where this machine does not run the ISA asked for, or waves are too large.
-    Workers(const Plan& plan, const RenderOptions& options, Film& film, const Cancellation& cancellation);
+    Workers(const Plan& plan, const RenderOptions& options, Ledger& ledger, const Cancellation& cancellation);
 
-    /// All tasks, no two of which may share a pixel, in any order. Throws what the cancellation throws.
-    void run(std::span<const Task> tasks, Progress& progress);
+    /// All tasks of the ledger, in any order. Throws what the cancellation throws.
+    void run(Progress& progress, Saver& saver);
 
     /// For whatever else these threads should do.
     Team& team() { return team_; }
-
-    std::uint64_t dropped_samples() const;
 
     /// What the threads are, what they counted, and the time since they came.
     void report(RenderStats& stats) const;
@@ -33,7 +31,7 @@ private:
 
     const Plan& plan_;
     const kernels::Stages<Real>& stages_;
-    Film& film_;
+    Ledger& ledger_;
     const Cancellation& cancellation_;
     std::uint32_t wave_size_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

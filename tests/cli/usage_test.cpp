@@ -27,6 +27,7 @@ TEST(Usage, HelpAndVersionGoToStandardOutput) {
                                    {"render", "--help"},
                                    {"info", "--help"},
                                    {"generate", "--help"},
+                                   {"develop", "--help"},
                                    {"compare", "--help"}}) {
         const Outcome help = orrery(asked);
         EXPECT_EQ(help.exit_code, 0);
@@ -71,7 +72,8 @@ TEST(Usage, RenderHelpNamesEveryOptionItsDefaultAndAnExample) {
 }
 
 const std::vector<Arguments> helps = {
-    {"--help"}, {"render", "--help"}, {"info", "--help"}, {"generate", "--help"}, {"compare", "--help"}};
+    {"--help"},           {"render", "--help"}, {"info", "--help"}, {"develop", "--help"}, {"generate", "--help"},
+    {"compare", "--help"}};
 
 std::vector<std::string> words_of(const std::string& text) {
     std::istringstream split(text);
@@ -147,8 +149,9 @@ std::string refusal_with(const Arguments& options) {
 }
 
 TEST(Usage, ACommandAndASceneAreNeeded) {
-    EXPECT_THAT(refusal_of({}), HasSubstr("expected a command, render, info, generate or compare"));
-    EXPECT_THAT(refusal_of({"paint", any_scene}), HasSubstr("expected a command, render, info, generate or compare"));
+    EXPECT_THAT(refusal_of({}), HasSubstr("expected a command, render, info, develop, generate or compare"));
+    EXPECT_THAT(refusal_of({"paint", any_scene}),
+                HasSubstr("expected a command, render, info, develop, generate or compare"));
     EXPECT_THAT(refusal_of({"render"}), HasSubstr("SCENE"));
     EXPECT_THAT(refusal_of({"info"}), HasSubstr("SCENE"));
     EXPECT_THAT(refusal_of({"render", any_scene, "another.json"}), HasSubstr("another.json"));
