@@ -36,6 +36,7 @@ int develop_films(const Developed& asked) {
     const Film& film = ledger->film();
     Making making = making_of(subject);
     for (const auto& [setting, value] : request.overrides) setting->member.set(making.settings, value);
+    making.exposure = request.exposure.value_or(making.exposure);
     if (making.settings.width != film.width() || making.settings.height != film.height())
         throw std::runtime_error(
             fmt::format("{}: damaged: it is not of the size it says", request.films.front().string()));
@@ -73,6 +74,7 @@ Work add_develop(CLI::App& app) {
         ->group("Films");
     add_outputs(app, request, "");
     add_override(app, request.overrides, setting("tonemap"), "the render's");
+    add_exposure(app, request, "the render's");
     add_error_image(app, request);
     add_quiet(app, request.quiet);
     app.footer(fmt::format(example, typed_command()));

@@ -26,11 +26,11 @@ std::string_view value_in(const FilmSubject& subject, std::string_view key) {
 }
 
 template <class Number>
-Number number_in(const FilmSubject& subject, std::string_view key) {
+Number number_in(const FilmSubject& subject, std::string_view key, Number least = 0) {
     const std::string_view text = value_in(subject, key);
     Number number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool good = error == std::errc() && end == text.data() + text.size() && number >= 0;
+    const bool good = error == std::errc() && end == text.data() + text.size() && number >= least;
     return good ? number : throw std::runtime_error(fmt::format("damaged: found no \"{}\" in it", key));
 }
 
@@ -38,7 +38,7 @@ Number number_in(const FilmSubject& subject, std::string_view key) {
 std::string_view arithmetic(Isa isa) { return isa == Isa::sse2 ? "of sse2" : "of scalar, avx2 and avx512"; }
 
 /// What images show and films do not.
-bool is_of_images(std::string_view key) { return key == "scene" || key == "tonemap"; }
+bool is_of_images(std::string_view key) { return key == "scene" || key == "tonemap" || key == "exposure"; }
 
 /// Whether a film with another value may go on.
 bool may_change(std::string_view key) {
@@ -55,12 +55,13 @@ std::string difference(const std::string& key, std::string_view found, std::stri
 
 }  // namespace
 
-FilmSubject film_subject(const Plan& plan, const Goal& goal, Isa isa) {
+FilmSubject film_subject(const Plan& plan, const Goal& goal, Isa isa, double exposure) {
     FilmSubject subject = {{"version", std::string(version())}, {"scene", plan.scene().file.filename().string()}};
     for (auto& part : fingerprints(plan.scene())) subject.push_back(std::move(part));
     subject.emplace_back("arithmetic", arithmetic(isa));
     for (const Setting& setting : all_settings())
         if (setting.matters(plan.settings())) subject.emplace_back(setting.option, text_of(setting, plan.settings()));
+    subject.emplace_back("exposure", fmt::format("{}", exposure));
     if (goal.asked()) {
         subject.emplace_back(goal_error, fmt::format("{}", goal.error));
         subject.emplace_back(goal_time, fmt::format("{}", goal.seconds));
@@ -93,6 +94,7 @@ Making making_of(const FilmSubject& subject) {
     Making making;
     making.scene = value_in(subject, "scene");
     making.version = value_in(subject, "version");
+    making.exposure = number_in<double>(subject, "exposure", -100);
     RenderSettings& settings = making.settings;
     for (const Setting& setting : all_settings()) {
         const std::string_view text = value_in(subject, setting.option);

@@ -11,7 +11,7 @@
 namespace orrery {
 
 /// All that decides a render's bytes, and what its images carry.
-FilmSubject film_subject(const Plan& plan, const Goal& goal, Isa isa);
+FilmSubject film_subject(const Plan& plan, const Goal& goal, Isa isa, double exposure);
 
 /// Why a film of `found` is none of `asked`, in words; empty where it is one, be it with other samples, another goal or
 /// another tone mapper.

@@ -15,7 +15,8 @@ std::vector<std::filesystem::path> write_images(const Outputs& outputs, const Im
     std::vector<std::filesystem::path> written;
     const auto write = [&](const std::filesystem::path& file, const Image& pixels, const Making& made) {
         try {
-            write_image(file, pixels, tone_mapper(made.settings), image_metadata(made, image_format(file)));
+            write_image(file, pixels, Look(tone_mapper(made.settings), made.exposure),
+                        image_metadata(made, image_format(file)));
             written.push_back(file);
         } catch (const std::bad_alloc&) {
             print_error(fmt::format("{}: out of memory", file.string()));

@@ -45,6 +45,13 @@ double parse_limit(std::string_view text) {
     throw unexpected(text, "a number >= 0");
 }
 
+double parse_exposure(std::string_view text) {
+    const bool negative = text.starts_with('-');
+    if (const auto number = number_and_rest(text.substr(negative ? 1 : 0)))
+        if (number->second.empty() && number->first <= 100) return negative ? -number->first : number->first;
+    throw unexpected(text, "a number from -100 to 100");
+}
+
 double parse_share(std::string_view text) {
     if (const auto number = number_and_rest(text)) {
         const auto& [value, rest] = *number;

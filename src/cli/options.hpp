@@ -36,6 +36,9 @@ std::uint32_t parse_integer(std::string_view text, std::uint32_t low, std::uint3
 /// A finite decimal number >= 0, with or without fraction and exponent, nothing before or after it. Throws UsageError.
 double parse_limit(std::string_view text);
 
+/// A decimal number from -100 to 100. Throws UsageError.
+double parse_exposure(std::string_view text);
+
 /// "1%" or "0.01", from 0.0001 % to 100 %: 0.01. Throws UsageError.
 double parse_share(std::string_view text);
 

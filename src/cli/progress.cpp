@@ -36,12 +36,14 @@ std::string duration_text(double seconds) {
     return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-std::string progress_line(double fraction, std::uint64_t rays, double seconds, std::size_t columns, double error) {
+std::string progress_line(double fraction, std::uint64_t rays, double seconds, std::size_t columns, double error,
+                          double begun) {
     // Rounded down: 100 % is said when all is done.
     std::string figures = fmt::format("{:3} %", static_cast<int>(fraction * 100));
     if (std::isfinite(error)) figures += fmt::format("  error {:.2g} %", 100 * error);
     if (seconds > 0) figures += fmt::format("  {:.1f} Mrays/s", static_cast<double>(rays) / seconds / 1e6);
-    if (fraction > 0) figures += fmt::format("  {} left", duration_text(seconds * (1 - fraction) / fraction));
+    if (fraction > begun)
+        figures += fmt::format("  {} left", duration_text(seconds * (1 - fraction) / (fraction - begun)));
 
     constexpr std::size_t frame = 4;  // two brackets, two blanks
     if (columns < figures.size() + frame + shortest_bar) return figures.substr(0, columns);
@@ -54,8 +56,9 @@ ProgressBar::ProgressBar(bool wanted) : shows_(wanted && ::isatty(STDERR_FILENO)
 
 void ProgressBar::update(double fraction, std::uint64_t rays) {
     if (!shows_) return;
+    if (!begun_) begun_ = fraction;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const std::string line = progress_line(fraction, rays, seconds, usable_columns(), error_);
+    const std::string line = progress_line(fraction, rays, seconds, usable_columns(), error_, *begun_);
     // Blanks over the rest of a longer line before: every terminal knows blanks and \r, not all know more.
     print_message(fmt::format("\r{:<{}}", line, drawn_));
     drawn_ = line.size();

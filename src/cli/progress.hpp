@@ -7,15 +7,17 @@
 #include <cstdint>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
 namespace orrery {
 
 /// "[######--------]  42 %  86.3 Mrays/s  1:23 left" in at most `columns` characters: the bar takes what the figures
-/// leave. `fraction` in [0, 1], `seconds` since the start; `error` of the image so far, where it is finite.
+/// leave. `fraction` in [0, 1], `seconds` since the start, when it was `begun`; `error` of the image so far, where it
+/// is finite.
 std::string progress_line(double fraction, std::uint64_t rays, double seconds, std::size_t columns,
-                          double error = std::numeric_limits<double>::infinity());
+                          double error = std::numeric_limits<double>::infinity(), double begun = 0);
 
 /// "7 s", "1:23", "4:05:06", and from two days on "28 days".
 std::string duration_text(double seconds);
@@ -41,6 +43,7 @@ private:
     void clear();
 
     bool shows_;
+    std::optional<double> begun_;  ///< the first fraction
     double error_ = std::numeric_limits<double>::infinity();
     std::size_t drawn_ = 0;  ///< characters on the terminal's line now
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

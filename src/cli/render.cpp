@@ -127,7 +127,7 @@ int render_scene(const Request& request) {
     const Plan plan = plan_visibly(request, std::move(*scene));
     print_warnings(request, plan);
     if (!request.quiet) note_fewer_samples(plan, goal);
-    const FilmSubject subject = film_subject(plan, goal, request.isa);
+    const FilmSubject subject = film_subject(plan, goal, request.isa, request.exposure.value_or(0));
     const Shard shard = request.shard.value_or(Shard{});
     const bool resumed = outputs.film && fs::exists(*outputs.film);
     const std::unique_ptr<Ledger> ledger =
@@ -144,6 +144,7 @@ int render_scene(const Request& request) {
                         .version = std::string(version()),
                         .settings = plan.settings(),
                         .goal = goal,
+                        .exposure = request.exposure.value_or(0),
                         .samples = stats.samples_per_pixel};
     const std::vector<fs::path> written = write_images(outputs, result.image, result.standard_error, making);
     const std::size_t images = outputs.images.size() + (outputs.error_image ? 1 : 0);
@@ -205,6 +206,7 @@ Work add_render(CLI::App& app) {
     add_scene(app, *request);
     add_outputs(app, *request, " (default: the scene's output)");
     add_settings(app, *request);
+    add_exposure(app, *request, "0");
     add_film(app, *request);
     add_reports(app, *request);
     add_quiet(app, request->quiet);

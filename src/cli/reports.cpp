@@ -126,7 +126,9 @@ Json decisions(const Plan& plan) {
 /// The options that, given to `orrery render`, make this image whatever the scene's renderer says and whatever the
 /// defaults become. Only those that matter to it: a tone mapper to files that are tone mapped, light transport to path
 /// tracing. In a fixed order, so that equal images carry equal text.
-std::string canonical_options(const RenderSettings& settings, const Goal& goal, ImageFormat format) {
+std::string canonical_options(const Making& making, ImageFormat format) {
+    const RenderSettings& settings = making.settings;
+    const Goal& goal = making.goal;
     std::string text;
     const auto add = [&](std::string_view option, auto value) {
         text += fmt::format("{}--{} {}", text.empty() ? "" : " ", option, value);
@@ -142,6 +144,7 @@ std::string canonical_options(const RenderSettings& settings, const Goal& goal, 
             add(setting.option, text_of(setting, settings));
         }
     }
+    if (eight_bit && making.exposure != 0) add("exposure", making.exposure);
     return text;
 }
 
@@ -229,7 +232,7 @@ Metadata image_metadata(const Making& making, ImageFormat format) {
     Metadata metadata = {{"scene", making.scene},
                          {"seed", std::to_string(making.settings.seed)},
                          {"samples", fmt::format("{}", making.samples)},
-                         {"options", canonical_options(making.settings, making.goal, format)},
+                         {"options", canonical_options(making, format)},
                          {"version", fmt::format("orrery {}", making.version)}};
     if (making.content != "radiance") metadata.emplace_back("content", making.content);
     return metadata;

@@ -35,6 +35,7 @@ struct Making {
     std::string version;  ///< of the program
     RenderSettings settings;
     Goal goal = {};
+    double exposure = 0;
     double samples = 0;                     ///< per pixel, the mean
     std::string_view content = "radiance";  ///< what the pixels are; said where it is not this
 };

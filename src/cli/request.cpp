@@ -118,6 +118,14 @@ void add_outputs(CLI::App& app, Request& request, const std::string& otherwise) 
         ->group("Image");
 }
 
+void add_exposure(CLI::App& app, Request& request, const std::string& otherwise) {
+    add_option(
+        app, "--exposure", "EV",
+        fmt::format("Multiply radiance by 2^EV, from -100 to 100, before it is tone mapped (default: {})", otherwise),
+        [&](const std::string& text) { request.exposure = parse_exposure(text); })
+        ->group("Image");
+}
+
 void add_error_image(CLI::App& app, Request& request) {
     add_option(app, "--error-image", "FILE", "Write every pixel's standard error, linear: .pfm or .exr",
                [&](const std::string& text) { request.error_image = text; })

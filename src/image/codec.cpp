@@ -16,15 +16,15 @@ bool is_beyond_ascii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 
 }  // namespace
 
-Bytes encode_image(ImageFormat format, const Image& linear, ToneMap mapper, const Metadata& metadata) {
+Bytes encode_image(ImageFormat format, const Image& linear, const Look& look, const Metadata& metadata) {
     if (linear.width == 0 || linear.height == 0) throw std::runtime_error("the image has no pixels");
     if (linear.pixels.size() != std::size_t{linear.width} * linear.height)
         throw std::runtime_error("the image has not as many pixels as its size says");
     switch (format) {
         case ImageFormat::ppm:
-            return encode_ppm(tone_mapped(linear, mapper), metadata);
+            return encode_ppm(tone_mapped(linear, look), metadata);
         case ImageFormat::png:
-            return encode_png(tone_mapped(linear, mapper), metadata);
+            return encode_png(tone_mapped(linear, look), metadata, look.mapper == ToneMap::srgb);
         case ImageFormat::pfm:
             return encode_pfm(linear);
         case ImageFormat::exr:

@@ -24,9 +24,9 @@ inline bool starts_with(ByteView bytes, std::string_view magic) {
            std::string_view(reinterpret_cast<const char*>(bytes.data()), magic.size()) == magic;
 }
 
-/// The whole file in memory, so that nothing on disk is touched before all of it is known. `mapper` concerns the
+/// The whole file in memory, so that nothing on disk is touched before all of it is known. `look` concerns the
 /// 8-bit formats only. Throws std::runtime_error, what encode_exr does, and std::bad_alloc.
-Bytes encode_image(ImageFormat format, const Image& linear, ToneMap mapper, const Metadata& metadata);
+Bytes encode_image(ImageFormat format, const Image& linear, const Look& look, const Metadata& metadata);
 
 /// By the first bytes, whatever the file is called. Throws as encode_image, and std::runtime_error where decoding takes
 /// more than so much `memory`, which is known before any is taken.
@@ -42,9 +42,10 @@ Image decode_ppm(ByteView file, std::uint64_t memory = unlimited_memory);
 
 // PNG through libpng: 8-bit RGB out, whatever libpng can turn into RGB in.
 
-/// 8-bit RGB, not interlaced, no gamma or colour chunks; the metadata are tEXt chunks, or iTXt where a value goes
+/// 8-bit RGB, not interlaced, no gamma or colour chunks but, of values that are `srgb`, the one that says so; the
+/// metadata are tEXt chunks, or iTXt where a value goes
 /// beyond ASCII. Throws std::runtime_error with libpng's reason.
-Bytes encode_png(const Image& tone_mapped, const Metadata& metadata);
+Bytes encode_png(const Image& tone_mapped, const Metadata& metadata, bool srgb = false);
 
 /// Grey, palette, RGB, with or without alpha (which is ignored), 1 to 16 bits, sample / greatest sample. Gamma chunks
 /// are not applied. Throws std::runtime_error, as decode_image does.

@@ -83,9 +83,9 @@ std::uint64_t least_file_size(ImageFormat format, std::uint32_t width, std::uint
     return 0;
 }
 
-void write_image(const std::filesystem::path& file, const Image& linear, ToneMap mapper, const Metadata& metadata) {
+void write_image(const std::filesystem::path& file, const Image& linear, const Look& look, const Metadata& metadata) {
     const ImageFormat format = image_format(file);
-    const Bytes bytes = naming(file, [&] { return encode_image(format, linear, mapper, metadata); });
+    const Bytes bytes = naming(file, [&] { return encode_image(format, linear, look, metadata); });
     write_atomically(file, bytes);
 }
 

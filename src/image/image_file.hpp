@@ -29,7 +29,7 @@ std::uint64_t least_file_size(ImageFormat format, std::uint32_t width, std::uint
 /// first) and EXR hold linear values. Written to a temporary beside the target, flushed and renamed: a reader never
 /// sees half an image and a failure leaves the previous file and no temporary.
 /// Throws std::runtime_error with the path and the system's reason.
-void write_image(const std::filesystem::path& file, const Image& linear, ToneMap mapper, const Metadata& metadata);
+void write_image(const std::filesystem::path& file, const Image& linear, const Look& look, const Metadata& metadata);
 
 inline constexpr std::uint64_t unlimited_memory = std::numeric_limits<std::uint64_t>::max();
 

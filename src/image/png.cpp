@@ -199,7 +199,7 @@ Image decode_png(ByteView file, std::uint64_t memory) {
     return image;
 }
 
-Bytes encode_png(const Image& tone_mapped, const Metadata& metadata) {
+Bytes encode_png(const Image& tone_mapped, const Metadata& metadata, bool srgb) {
     Bytes file;
     const std::vector<std::uint8_t> samples = quantised(tone_mapped);
     const PngTexts texts(metadata);
@@ -211,6 +211,7 @@ Bytes encode_png(const Image& tone_mapped, const Metadata& metadata) {
         png_set_write_fn(png, &file, write_bytes, nullptr);
         png_set_IHDR(png, writer.info, tone_mapped.width, tone_mapped.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                      PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        if (srgb) png_set_sRGB(png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
         png_set_text(png, writer.info, texts.chunks.data(), static_cast<int>(texts.chunks.size()));
         png_write_info(png, writer.info);
         for (std::size_t y = 0; y < tone_mapped.height; ++y)

@@ -1,4 +1,4 @@
-// Tone mappers: linear radiance -> [0, 1], without gamma; and [0, 1] to the 8 bits that PPM and PNG store.
+// Tone mappers: linear radiance -> [0, 1], and [0, 1] to the 8 bits that PPM and PNG store.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,21 @@
 
 namespace orrery {
 
-enum class ToneMap : std::uint8_t { sigmoid, linear, none };
+enum class ToneMap : std::uint8_t { sigmoid, linear, none, srgb };
+
+/// How radiance is shown in 8 bits: times 2^exposure, then mapped.
+struct Look {
+    Look(ToneMap map, double stops = 0) : mapper(map), exposure(stops) {}  // NOLINT: a mapper is a look
+
+    ToneMap mapper;
+    double exposure;
+};
 
 /// sigmoid I/(1+I) per channel; linear I/max(I), the maximum per channel over the image (a black channel stays
-/// black); none clamps to [0, 1]. What a film cannot hold is still given a meaning: negative and NaN become 0, +inf
-/// counts as the largest float.
-Image tone_mapped(const Image& linear, ToneMap mapper);
+/// black); none clamps to [0, 1]: these without gamma. srgb clamps and applies the transfer function of IEC 61966-2-1,
+/// so that a screen shows the radiance. What a film cannot hold is still given a meaning: negative and NaN become 0,
+/// +inf counts as the largest float.
+Image tone_mapped(const Image& linear, const Look& look);
 
 /// round(255 x), half up; what lies outside [0, 1] is clamped and NaN is 0. In double the product of a float and 255
 /// is exact, so the only rounding is the one asked for.

@@ -135,12 +135,23 @@ TEST_F(Film, BecomesTheImagesOfTheRender) {
     }
 }
 
-TEST_F(Film, IsDevelopedWithAnotherToneMapper) {
-    done(work + Words{"-o", "a.png", "--tonemap", "none"});
-    done(work + Words{"-o", "b.png", "--film", "x.film"});
-    EXPECT_NE(content("a.png"), content("b.png"));
-    done({"develop", "x.film", "-o", "c.png", "--tonemap", "none"});
-    EXPECT_EQ(content("c.png"), content("a.png"));
+TEST_F(Film, IsDevelopedWithAnotherLook) {
+    done(small + Words{"--spp", "4", "-o", "b.png", "--film", "x.film"});
+    for (const Words& look :
+         {Words{"--tonemap", "none"}, Words{"--tonemap", "srgb", "--exposure", "-1.5"}, Words{"--exposure", "2"}}) {
+        done(small + Words{"--spp", "4", "-o", "a.png", "-o", "a.exr"} + look);
+        EXPECT_NE(content("a.png"), content("b.png"));
+        done(Words{"develop", "x.film", "-o", "c.png", "-o", "c.exr"} + look);
+        EXPECT_EQ(content("c.png"), content("a.png"));
+        EXPECT_EQ(content("c.exr"), content("a.exr"));
+    }
+    done(small + Words{"--spp", "4", "-o", "b.png", "--film", "x.film", "--exposure", "2"});
+    done({"develop", "x.film", "-o", "c.png"});
+    EXPECT_EQ(content("c.png"), content("a.png")) << "what the render said is the default";
+    for (const char* bad : {"x", "101", "-101", "nan", "1e2", "--1", "1 "})
+        EXPECT_THAT(refused({"develop", "x.film", "-o", "c.png", "--exposure=" + std::string(bad)}),
+                    HasSubstr("expected a number from -100 to 100"))
+            << bad;
 }
 
 TEST_F(Film, OfShardsIsThatOfTheWhole) {

@@ -25,6 +25,8 @@ TEST(Progress, LineTellsPercentRateAndTimeLeft) {
     EXPECT_EQ(progress_line(0.25, 3'000'000, 2, 79),
               "[###########------------------------------------]   25 %  1.5 Mrays/s  6 s left");
     EXPECT_THAT(progress_line(0, 0, 0, 79), MatchesRegex("\\[-+\\]    0 %"));
+    EXPECT_THAT(progress_line(0.75, 10, 2, 79, 1.0 / 0.0, 0.5), HasSubstr("  2 s left")) << "half was there before";
+    EXPECT_THAT(progress_line(0.5, 0, 2, 79, 1.0 / 0.0, 0.5), MatchesRegex(".* 50 %.*[0-9] Mrays/s")) << "who knows";
     EXPECT_THAT(progress_line(1, 10, 2, 79), MatchesRegex("\\[#+\\]  100 %.*0 s left"));
     EXPECT_THAT(progress_line(0.999, 10, 2, 79), HasSubstr(" 99 %")) << "100 is said when all is done";
 }

@@ -55,7 +55,7 @@ TEST(Usage, RenderHelpNamesEveryOptionItsDefaultAndAnExample) {
                                "--light-choice all|uniform|power",
                                "--roulette on|off",
                                "--roulette-from N",
-                               "--tonemap sigmoid|linear|none",
+                               "--tonemap sigmoid|linear|none|srgb",
                                "--isa auto|scalar|sse2|avx2|avx512",
                                "--precision auto|float|double",
                                "--stats FILE.json",
@@ -208,7 +208,7 @@ TEST(Usage, ChoicesNameWhatThereIs) {
     EXPECT_THAT(refusal_with({"--light-sampling", "uniform"}), HasSubstr("area|cone"));
     EXPECT_THAT(refusal_with({"--light-choice", "one"}), HasSubstr("all|uniform|power"));
     EXPECT_THAT(refusal_with({"--roulette", "yes"}), HasSubstr("on|off"));
-    EXPECT_THAT(refusal_with({"--tonemap", "aces"}), HasSubstr("sigmoid|linear|none"));
+    EXPECT_THAT(refusal_with({"--tonemap", "aces"}), HasSubstr("sigmoid|linear|none|srgb"));
     EXPECT_THAT(refusal_with({"--isa", "avx9000"}), HasSubstr("supports: scalar"));
     EXPECT_THAT(refusal_with({"--precision", "half"}), HasSubstr("auto|float|double"));
 }

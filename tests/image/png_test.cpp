@@ -38,6 +38,17 @@ TEST(Png, KeepsUtf8AsInternationalText) {
     EXPECT_EQ(file.find("tEXt"), file.npos);
 }
 
+TEST(Png, SaysWhereItsValuesAreSrgb) {
+    const std::string chunk = std::string("\0\0\0\x01sRGB", 8);
+    const auto file = [](ToneMap mapper) {
+        return to_text(encode_image(ImageFormat::png, test::gradient(2, 2), mapper, {}));
+    };
+    EXPECT_NE(file(ToneMap::srgb).find(chunk), std::string::npos);
+    for (const ToneMap other : {ToneMap::sigmoid, ToneMap::linear, ToneMap::none})
+        EXPECT_EQ(file(other).find("sRGB"), std::string::npos);
+    EXPECT_EQ(file(ToneMap::srgb).find("gAMA"), std::string::npos);
+}
+
 TEST(Png, TakesAnyMetadata) {
     const Metadata awkward{
         {"", ""}, {" ", " "}, {"a  b", "two spaces"}, {std::string(500, 'k'), std::string(100000, 'v')}};

@@ -44,6 +44,29 @@ TEST(Sigmoid, TreatsChannelsApart) {
     EXPECT_EQ(tone_mapped(row({{0, 1, 3}}), ToneMap::sigmoid).pixels[0], (Rgb{0, 0.5f, 0.75f}));
 }
 
+// Table 1 of IEC 61966-2-1 has no such values; these are its formula's in decimal arithmetic.
+TEST(Srgb, IsWhatScreensUndo) {
+    EXPECT_EQ(grey(0, ToneMap::srgb), 0.0f);
+    EXPECT_NEAR(grey(0.002f, ToneMap::srgb), 0.02584f, 1e-7);
+    EXPECT_NEAR(grey(0.18f, ToneMap::srgb), 0.461356129f, 1e-6);
+    EXPECT_NEAR(grey(0.5f, ToneMap::srgb), 0.735356983f, 1e-6);
+    EXPECT_EQ(grey(1, ToneMap::srgb), 1.0f);
+    for (const float bright : {1.5f, largest, inf}) EXPECT_EQ(grey(bright, ToneMap::srgb), 1.0f);
+    for (const float dark : {-1.0f, nan}) EXPECT_EQ(grey(dark, ToneMap::srgb), 0.0f);
+}
+
+TEST(Exposure, DoublesRadianceBeforeItIsMapped) {
+    const auto exposed = [](float value, const Look& look) {
+        return tone_mapped(row({{value, 0, 0}}), look).pixels[0].r;
+    };
+    EXPECT_EQ(exposed(1.5f, {ToneMap::sigmoid, 1}), 0.75f);
+    EXPECT_EQ(exposed(0.5f, {ToneMap::none, -2}), 0.125f);
+    EXPECT_EQ(exposed(0.25f, {ToneMap::srgb, 1}), grey(0.5f, ToneMap::srgb));
+    EXPECT_EQ(exposed(0.25f, {ToneMap::linear, 3}), 1.0f);
+    EXPECT_EQ(exposed(largest, {ToneMap::sigmoid, 100}), 1.0f);
+    EXPECT_EQ(exposed(0.3f, {ToneMap::none, 0}), 0.3f);
+}
+
 TEST(Linear, DividesEachChannelByItsOwnMaximum) {
     const Image mapped = tone_mapped(row({{1, 10, 0.5f}, {4, 5, 0.25f}, {2, 0, 0}}), ToneMap::linear);
     EXPECT_EQ(mapped.pixels, (std::vector<Rgb>{{0.25f, 1, 1}, {1, 0.5f, 0.5f}, {0.5f, 0, 0}}));
