@@ -57,7 +57,7 @@ void generate(const CameraTable<RealOf<V>>& camera, const Slots<V>& slots, std::
         save3<V>(rays.tr + i, rays.tg + i, rays.tb + i, {one, one, one});
         // What the camera sees of a light competes with no light sample.
         if (rays.pdf != nullptr) save(rays.pdf + i, F(std::numeric_limits<RealOf<V>>::infinity()));
-        if (rays.eta_scale != nullptr) save(rays.eta_scale + i, one);
+        if (rays.roulette_scale != nullptr) save(rays.roulette_scale + i, one);
         save(rays.departed + i, U(Word{no_sphere}));
         save(rays.slot + i, consecutive<V>(i));
         save(rays.pixel + i, pixel);

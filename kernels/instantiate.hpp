@@ -10,6 +10,7 @@
 #include "kernels/emission.hpp"
 #include "kernels/exact.hpp"
 #include "kernels/generate.hpp"
+#include "kernels/guide.hpp"
 #include "kernels/roulette.hpp"
 #include "kernels/segment.hpp"
 #include "kernels/sort.hpp"
@@ -59,6 +60,7 @@ constexpr Stages<RealOf<V>> make_stages(Isa isa) {
     s.follow_point_caustic = follow_point_caustic<W>;
     s.follow_caustic = follow_caustic<W>;
     s.follow_lobe = follow_lobe<W>;
+    s.guide = guide<V>;
     s.roulette = roulette<W>;
     s.expire = expire<V>;
     s.branch = branch<V>;

@@ -27,15 +27,16 @@ ORRERY_INLINE constexpr std::uint32_t round_up(std::uint32_t n) { return (n + wi
 template <class Real>
 struct RayQueue {
     using Word = WordOf<Real>;
-    Real *ox, *oy, *oz;  ///< origin, scene units
-    Real *dx, *dy, *dz;  ///< direction, unit length
-    Real *tr, *tg, *tb;  ///< throughput, >= 0; all zero marks a dead ray
-    Real* pdf;           ///< density of the scattering that made the direction, per solid angle, as far as emission
-                         ///< found by this ray competes with light samples: +inf counts it whole, 0 not at all.
-                         ///< Null where the plan has no such competition.
-    Real* eta_scale;     ///< product of the (eta_i / eta_t)^2 inside the throughput. Null without dielectrics.
-    Word* departed;      ///< sphere the ray leaves, inside_bit set when it runs inward; no_sphere from the camera
-    Word* slot;          ///< which (pixel, sample) of the wave
+    Real *ox, *oy, *oz;    ///< origin, scene units
+    Real *dx, *dy, *dz;    ///< direction, unit length
+    Real *tr, *tg, *tb;    ///< throughput, >= 0; all zero marks a dead ray
+    Real* pdf;             ///< density of the scattering that made the direction, per solid angle, as far as emission
+                           ///< found by this ray competes with light samples: +inf counts it whole, 0 not at all.
+                           ///< Null where the plan has no such competition.
+    Real* roulette_scale;  ///< what of the throughput roulette must not see: (eta_i / eta_t)^2 of refractions, what
+                           ///< guided rays are weighed by. Null without either.
+    Word* departed;        ///< sphere the ray leaves, inside_bit set when it runs inward; no_sphere from the camera
+    Word* slot;            ///< which (pixel, sample) of the wave
     Word* pixel;  ///< the slot's pixel and sample, of Sobol's sequences with bits reversed: keys of randomness, carried
     Word* sample;  ///< along, as moving two words with the ray costs less than gathering them by slot at four uses
     Word* vertex;  ///< Whitted: the ray's node in the slot's ray tree, root 1, children 2n and 2n + 1. Null for paths,
@@ -46,7 +47,7 @@ struct RayQueue {
         visit("ox", &RayQueue::ox), visit("oy", &RayQueue::oy), visit("oz", &RayQueue::oz);
         visit("dx", &RayQueue::dx), visit("dy", &RayQueue::dy), visit("dz", &RayQueue::dz);
         visit("tr", &RayQueue::tr), visit("tg", &RayQueue::tg), visit("tb", &RayQueue::tb);
-        visit("pdf", &RayQueue::pdf), visit("eta_scale", &RayQueue::eta_scale);
+        visit("pdf", &RayQueue::pdf), visit("roulette_scale", &RayQueue::roulette_scale);
         visit("departed", &RayQueue::departed), visit("slot", &RayQueue::slot);
         visit("pixel", &RayQueue::pixel), visit("sample", &RayQueue::sample), visit("vertex", &RayQueue::vertex);
     }

@@ -7,8 +7,8 @@
 namespace orrery::kernels {
 
 /// Compacts the runs of `rays`, in order, to its front and returns how many rays survive. Dead rays (no throughput) go
-/// always; with `play`, a ray survives with probability q = min(1, max component of its throughput without the
-/// radiance scaling by eta) and is divided by q. In place: a survivor never moves back.
+/// always; with `play`, a ray survives with probability q = min(1, max component of its throughput over
+/// RayQueue::roulette_scale) and is divided by q. In place: a survivor never moves back.
 template <class V>
 std::uint32_t roulette(const Slots<V>& slots, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs& runs,
                        const Rays<V>& rays) {
@@ -24,7 +24,7 @@ std::uint32_t roulette(const Slots<V>& slots, std::uint32_t seed, std::uint32_t 
             const F carried = max(throughput.x, max(throughput.y, throughput.z));
             auto alive = in_run && !carries_nothing(throughput);
             if (play && any(alive)) {
-                const F scale = rays.eta_scale != nullptr ? load<F>(rays.eta_scale + i) : F(1);
+                const F scale = rays.roulette_scale != nullptr ? load<F>(rays.roulette_scale + i) : F(1);
                 const F q = min(carried / scale, F(1));
                 const F u = random_for<V, 1>(slots, rays, i, key, bounce).x;
                 // What is no number lives on, whichever channel it is in.

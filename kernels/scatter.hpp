@@ -122,7 +122,8 @@ void scatter(const ScatterContext<RealOf<V>>& context, Range run, const Rays<V>&
             if (rays.vertex != nullptr) save(rays.vertex + i, load<U>(rays.vertex + i) << 1);
         }
         if constexpr (traits_of(kind).is_interface) {
-            if (rays.eta_scale != nullptr) save(rays.eta_scale + i, load<F>(rays.eta_scale + i) * out.eta_scale);
+            if (rays.roulette_scale != nullptr)
+                save(rays.roulette_scale + i, load<F>(rays.roulette_scale + i) * out.eta_scale);
         }
         if constexpr (traits_of(kind).is_rough()) {
             if (lobes.x != nullptr) save3<V>(lobes.x + i, lobes.y + i, lobes.z + i, out.lobe);

@@ -50,6 +50,17 @@ struct CausticContext {
     std::uint32_t bounce = 0;
 };
 
+/// What guiding knows.
+template <class Real>
+struct GuideContext {
+    SphereTable<Real> spheres;
+    SlotTable<Real> slots;
+    GuideTable<Real> guide;
+    std::uint32_t seed = 0;
+    std::uint32_t bounce = 0;
+    bool competing_pdf = false;  ///< as in ScatterContext
+};
+
 /// Segments as columns, capacity a multiple of `widest`.
 template <class Real>
 struct SegmentColumns {
@@ -120,6 +131,8 @@ struct Stages {
                            const ShadowQueue<Real>&, std::uint32_t count);
     std::uint32_t (*follow_lobe)(const CausticContext<Real>&, const Caustic<Real>&, std::uint32_t count,
                                  const ShadowQueue<Real>&);
+
+    void (*guide)(const GuideContext<Real>&, Range, const RayQueue<Real>&);
 
     std::uint32_t (*roulette)(const SlotTable<Real>&, std::uint32_t seed, std::uint32_t bounce, bool play, const Runs&,
                               const RayQueue<Real>&);

@@ -204,6 +204,33 @@ struct CausticTable {
     SpheresOverPoints<Real> over_points{};  ///< null columns without Needs::point_caustics
 };
 
+/// Spots that rays are guided to, at most.
+inline constexpr std::uint32_t most_spots = 4;
+/// Diffuse balls as lamps beside them light them (guide.hpp); columns by spot.
+template <class Real>
+struct GuideTable {
+    std::uint32_t count = 0;
+    const WordOf<Real>* ball = nullptr;  ///< sphere
+    const Real* cx = nullptr;            ///< its centre
+    const Real* cy = nullptr;
+    const Real* cz = nullptr;
+    const Real* radius = nullptr;
+    const Real* px = nullptr;  ///< the lamp's centre, outside the ball
+    const Real* py = nullptr;
+    const Real* pz = nullptr;
+    const Real* nx = nullptr;  ///< from the ball's centre towards the lamp's, unit length
+    const Real* ny = nullptr;
+    const Real* nz = nullptr;
+    const Real* gap = nullptr;         ///< of the lamp's centre and the ball
+    const Real* cone = nullptr;        ///< 1 - cos of the half angle that the ball subtends from the lamp
+    const Real* brightness = nullptr;  ///< what the spot sends on for its area, the brightest being 1
+    // Inverses and ratios of these.
+    const Real* inverse_width = nullptr;  ///< of the spot: the gap, or the radius where that is less
+    const Real* inverse_radius = nullptr;
+    const Real* gap_in_radii = nullptr;
+    const Real* inverse_solid_angle = nullptr;  ///< of the cone
+};
+
 /// The radiance of the enclosing volume.
 template <class Real>
 struct Background {

@@ -63,6 +63,10 @@ std::vector<Decision> Plan::decisions() const {
            n.connect_point != 0 ? fmt::format("{} of them, from {} surfaces", point_lights_, kinds(n.connect_point))
            : point_lights_ == 0 ? "there is none"
                                 : "no surface they could light");
+    const std::string how_bright =
+        s.guide == Guide::automatic
+            ? fmt::format(": {:.2g} of the light, {:.2g} of that sharp", spot_light_.share, spot_light_.sharpness)
+            : "";
     const bool exact = s.light_sampling == LightSampling::exact;
     const bool naive = n.integrator == Integrator::path_tracing && s.transport == Transport::naive;
     decide("shadow: area lights", n.connect_area != 0,
@@ -97,6 +101,16 @@ std::vector<Decision> Plan::decisions() const {
            : smooth_ == 0                             ? "no sphere is a mirror or smooth glass"
            : s.depth < 2                              ? "no path scatters twice"
                                                       : "switched off: that light is left out");
+    decide("shade: guide", n.guide,
+           n.guide ? fmt::format("bounces off diffuse surfaces look for {} that lamps make on diffuse spheres{}",
+                                 counted(spots_.size(), "spot"), how_bright)
+           : n.integrator == Integrator::whitted ? "diffuse surfaces end a ray"
+           : s.guide == Guide::off               ? "switched off"
+           : s.depth < 2                         ? "no path is long enough"
+           : s.guide == Guide::automatic && scene_.primitives.size() > most_spheres_for_spots
+               ? fmt::format("not considered among more than {} spheres", most_spheres_for_spots)
+           : spots_.empty() ? "no lamp that is sampled makes a spot on a diffuse sphere outside it"
+                            : "spots are too dim or too broad" + how_bright);
     const auto lights = sampled_lights();
     decide("shadow: light choice", n.one_light,
            lights == 0                            ? "no light is sampled"

@@ -26,6 +26,7 @@ Plan::Plan(Scene scene, unsigned threads) : scene_(std::move(scene)) {
     plan_precision();
     plan_camera();
     plan_needs();
+    plan_guide();
     plan_tables(threads);
     plan_exact();
 }
@@ -84,6 +85,7 @@ void Plan::plan_tables(unsigned threads) {
         auto& tables = tables_.emplace<Tables<Real>>(scene_, frame_, unit_, order, std::move(tree));
         if (needs_.caustics) tables.sample_caustics(scene_, unit_, order, caustics_);
         if (needs_.point_caustics) tables.look_over(scene_, order, smooth_spheres(scene_));
+        if (needs_.guide) tables.guide_to(scene_, unit_, order, spots_);
         if (!needs_.one_light) return;
         if (needs_.connect_area != 0) tables.choose_lights(scene_, true);
         if ((needs_.connect_point & ~needs_.connect_area) != 0) tables.choose_lights(scene_, false);
@@ -136,8 +138,21 @@ void Plan::plan_needs() {
             std::ranges::any_of(caustics_, [](const PlannedCaustic& c) { return c.roughness > 0; });
     }
     needs_.roulette = s.roulette && s.depth > s.roulette_from;
-    needs_.eta_scale = needs_.roulette && dielectric != 0;
+    needs_.roulette_scale = needs_.roulette && dielectric != 0;
     needs_.lobes = ((needs_.connect_point | needs_.connect_area) & ~diffuse) != 0;
+}
+
+/// To spots that lamps make which diffuse surfaces sample: what they find there counts.
+void Plan::plan_guide() {
+    const auto& s = settings();
+    const auto diffuse = kernels::bit_of(kernels::Scattering::diffuse);
+    const bool points = (needs_.connect_point & diffuse) != 0, areas = (needs_.connect_area & diffuse) != 0;
+    if (s.integrator != Integrator::path_tracing || s.guide == Guide::off || s.depth < 2 || !(points || areas)) return;
+    if (s.guide == Guide::automatic && scene_.primitives.size() > most_spheres_for_spots) return;
+    spots_ = plan_spots(scene_, points, areas);
+    if (s.guide == Guide::automatic) spot_light_ = light_of_spots(scene_, frame_, spots_);
+    needs_.guide = !spots_.empty() && (s.guide == Guide::on || worth_guiding(spot_light_));
+    needs_.roulette_scale = needs_.roulette_scale || (needs_.roulette && needs_.guide);
 }
 
 namespace {

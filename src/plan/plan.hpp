@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plan/coincident.hpp"
+#include "plan/guide.hpp"
 #include "plan/precision.hpp"
 #include "plan/tables.hpp"
 #include "plan/unit.hpp"
@@ -32,10 +33,11 @@ struct Needs {
     bool caustics = false;            ///< vertices sample light that comes over one smooth or glossy sphere
     bool glossy_caustics = false;     ///< over glossy ones
     bool point_caustics = false;      ///< vertices look for point lights over smooth spheres
+    bool guide = false;               ///< bounces off diffuse surfaces are guided to spots
     bool competing = false;           ///< light samples and scattering share the work (mis)
     bool lights_only = false;         ///< what rays from vertices that sample area lights run into counts for nothing
     bool scattering_pdf = false;      ///< rays carry the density that made them
-    bool eta_scale = false;           ///< rays carry the radiance scaling roulette must not see
+    bool roulette_scale = false;      ///< rays carry the part of their throughput that roulette must not see
     bool lobes = false;               ///< glossy vertices keep their lobe for the light samples
     bool roulette = false;
     bool branches = false;  ///< Whitted with dielectrics: both branches, one postponed
@@ -95,6 +97,7 @@ private:
     void plan_tables(unsigned threads);
     void plan_needs();
     void plan_exact();
+    void plan_guide();
     /// How many lights vertices aim at.
     std::size_t sampled_lights() const;
 
@@ -109,6 +112,8 @@ private:
     std::size_t emitters_ = 0, point_lights_ = 0;  ///< that are switched on
     std::vector<PlannedCaustic> caustics_;
     std::size_t smooth_ = 0;  ///< spheres, for path tracing
+    std::vector<PlannedSpot> spots_;
+    SpotLight spot_light_;
     std::variant<std::monostate, Tables<float>, Tables<double>> tables_;
 };
 

@@ -185,11 +185,28 @@ void Tables<Real>::choose_lights(const Scene& scene, bool area) {
     choices_[which].put_into(lights_[which]);
 }
 
+namespace {
+
+/// Where each primitive stands in that order.
+std::vector<std::uint32_t> places_in(const std::vector<std::uint32_t>& order) {
+    std::vector<std::uint32_t> place(order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+    return place;
+}
+
+}  // namespace
+
+template <class Real>
+void Tables<Real>::guide_to(const Scene& scene, const LengthUnit& in, const std::vector<std::uint32_t>& order,
+                            const std::vector<PlannedSpot>& spots) {
+    spots_ = SpotColumns<Real>(scene, in, spots, places_in(order));
+    guide = spots_.table();
+}
+
 template <class Real>
 void Tables<Real>::sample_caustics(const Scene& scene, const LengthUnit& in, const std::vector<std::uint32_t>& order,
                                    const std::vector<PlannedCaustic>& planned) {
-    std::vector<std::uint32_t> sphere(order.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i) sphere[order[i]] = i;
+    const std::vector<std::uint32_t> sphere = places_in(order);
     const auto f = [](double v) { return static_cast<Real>(v); };
     for (const PlannedCaustic& p : planned) {
         const Primitive &ball = scene.primitives[p.ball], &lamp = scene.primitives[p.lamp];

@@ -6,6 +6,7 @@
 
 #include "kernels/tables.hpp"
 #include "plan/caustics.hpp"
+#include "plan/guide.hpp"
 #include "plan/light_choice.hpp"
 #include "plan/sphere_choice.hpp"
 #include "plan/tree.hpp"
@@ -45,8 +46,12 @@ public:
     /// Lets vertices look for point lights over the primitives `balls`; to be called behind sample_caustics.
     void look_over(const Scene& scene, const std::vector<std::uint32_t>& order,
                    const std::vector<std::uint32_t>& balls);
+    /// Lets bounces be guided to these; `order` as above.
+    void guide_to(const Scene& scene, const LengthUnit& unit, const std::vector<std::uint32_t>& order,
+                  const std::vector<PlannedSpot>& spots);
 
     kernels::CausticTable<Real> caustics;
+    kernels::GuideTable<Real> guide;
     kernels::CameraTable<Real> camera{};
     kernels::SphereTable<Real> spheres;
     kernels::MaterialTable<Real> materials;
@@ -75,6 +80,7 @@ private:
     std::vector<kernels::Caustic<Real>> caustics_;
     std::vector<kernels::CausticGroup<Real>> caustic_groups_;
     SphereChoice<Real> sphere_choice_;
+    SpotColumns<Real> spots_;
     std::array<ChoiceColumns<Real>, 2> choices_;       // without area lights, with them
     std::array<kernels::LightTable<Real>, 2> lights_;  // the same
 };

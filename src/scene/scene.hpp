@@ -61,6 +61,8 @@ enum class LightSampling : std::uint8_t { area, cone, exact };
 enum class LightChoice : std::uint8_t { all, uniform, power };
 /// The kernels' number type (IEEE 754); automatic: float where it is good enough for the scene.
 enum class Precision : std::uint8_t { automatic, binary32, binary64 };
+/// Whether bounces are guided to bright spots; automatic: where that pays.
+enum class Guide : std::uint8_t { automatic, on, off };
 
 /// The `renderer` object: what to compute, and where the file says the image goes.
 struct RenderSettings {
@@ -75,6 +77,7 @@ struct RenderSettings {
     LightSampling light_sampling = LightSampling::exact;
     LightChoice light_choice = LightChoice::all;
     bool caustics = true;  ///< light over one smooth sphere is sampled
+    Guide guide = Guide::automatic;
     bool roulette = true;
     /// So many scattering events of a path are never followed by roulette: played from the first on it costs more noise
     /// than it saves time (bench/TRADEOFF.md).

@@ -83,6 +83,11 @@ std::vector<Setting> table() {
          .meaning = "Light that comes to a surface over one glass, mirror or glossy sphere is sampled on purpose; off "
                     "leaves out that of point lights",
          .member = member<&S::caustics>, .matters = with_paths},
+        {.key = "guide", .option = "guide", .group = "Method", .kind = word, .words = {"auto", "on", "off"},
+         .same_expectation = true,
+         .meaning = "Bounces off diffuse surfaces are guided to spots that lamps near diffuse spheres make on them; auto "
+                    "does so where that pays",
+         .member = member<&S::guide>, .matters = with_paths},
         {.key = "roulette", .option = "roulette", .group = "Method", .kind = word, .words = {"on", "off"},
          .same_expectation = true, .meaning = "Russian roulette ends paths of low throughput",
          .member = member<&S::roulette>, .matters = with_paths},

@@ -34,6 +34,7 @@ void trace_paths(Wave<Real>& w) {
         w.direct_lighting(runs, bounce);
         w.caustics(runs, bounce);
         w.point_caustics(runs, bounce);
+        w.guide(runs, bounce);
         if (bounce + 1 == depth) {
             if (!w.pipeline.emission) break;
             if (needs.lights_only) end(runs, needs.connect_area);

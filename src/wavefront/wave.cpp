@@ -27,6 +27,7 @@ constexpr StageInfo shadow_info{"shadow", Stage::shadow, radiance_part | shadow_
 constexpr StageInfo chance_info{"chance", Stage::shade, radiance_part | ray_part | hit_part | chain_part | pick_part,
                                 radiance_part, true};
 constexpr StageInfo weigh_info{"weigh", Stage::shade, shadow_part | chain_part, shadow_part, true};
+constexpr StageInfo guide_info{"guide", Stage::shade, slot_part | ray_part, ray_part, true};
 constexpr StageInfo roulette_info{"roulette", Stage::roulette, slot_part | ray_part, ray_part};
 constexpr StageInfo branch_info{"branch", Stage::shade, 0, 0};
 constexpr StageInfo resume_info{"resume", Stage::roulette, 0, 0};
@@ -204,6 +205,19 @@ void Wave<Real>::shadow(std::uint32_t rays, std::uint32_t target, std::uint32_t 
              return only({0, rays});
          });
     counters.shadow_rays += rays;
+}
+
+template <class Real>
+void Wave<Real>::guide(const Runs& runs, std::uint32_t bounce) {
+    const Range vertices = runs.run[static_cast<std::size_t>(Scattering::diffuse)];
+    // What rays from the last vertex find are lamps alone.
+    if (!plan.needs().guide || vertices.count == 0 || bounce + 2 > plan.settings().depth) return;
+    call({guide_info, bounce, vertices, words<Real>(3 + 2 * 3 + 2 * 3 + 1 + 2), stages.lanes},
+         [&t = tables, seed = plan.settings().seed, competing = plan.needs().competing, bounce, vertices](const auto& s,
+                                                                                                          auto& q) {
+             s.guide({t.spheres, q.slots, t.guide, seed, bounce, competing}, vertices, q.rays);
+             return only(vertices);
+         });
 }
 
 template <class Real>

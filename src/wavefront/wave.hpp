@@ -63,6 +63,8 @@ struct Wave {
     void caustics(const kernels::Runs& runs, std::uint32_t bounce);
     /// The same towards point lights, for every run that samples those.
     void point_caustics(const kernels::Runs& runs, std::uint32_t bounce);
+    /// Diffuse vertices' rays -> some of them to bright spots.
+    void guide(const kernels::Runs& runs, std::uint32_t bounce);
     /// Kill, weigh, compact. Returns the number of survivors.
     std::uint32_t roulette(const kernels::Runs& runs, std::uint32_t bounce);
 

@@ -47,7 +47,7 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
             if (!wanted(member)) return;
             if constexpr (std::is_same_v<decltype(member), Real * Queue::*>) {
                 if (member == &Queue::pdf && !needs.scattering_pdf) return;
-                if (member == &Queue::eta_scale && !needs.eta_scale) return;
+                if (member == &Queue::roulette_scale && !needs.roulette_scale) return;
             } else if (member == &Queue::vertex && needs.integrator != Integrator::whitted) {
                 return;
             }
@@ -90,7 +90,7 @@ std::size_t WaveStorage<Real>::carve(std::byte* base, const Needs& needs, std::u
         ray_fields(aside, capacity, [](auto member) {
             if constexpr (std::is_same_v<decltype(member), Real * Queue::*>) {
                 return member != &Queue::dx && member != &Queue::dy && member != &Queue::dz && member != &Queue::pdf &&
-                       member != &Queue::eta_scale;
+                       member != &Queue::roulette_scale;
             }
             return true;
         });

@@ -152,7 +152,7 @@ protected:
         Slots slots(capacity);
         for (std::uint32_t s = 0; s < 4 * capacity; ++s) slots->radiance[s] = 0;
         Slots same = slots;
-        Rays aside(capacity, {"dx", "dy", "dz", "pdf", "eta_scale"}), other = aside;
+        Rays aside(capacity, {"dx", "dy", "dz", "pdf", "roulette_scale"}), other = aside;
         const Rays before = rays, blank = aside;
         const std::uint32_t size = stages.exact(context(world, slots), 0, {begin, count}, *rays, *aside);
         EXPECT_TRUE(rays.same_as(before, -Rays::guard, rays.capacity() + Rays::guard)) << "only read";

@@ -75,7 +75,7 @@ protected:
             ASSERT_NEAR(glm::length(d), 1, 3e-7);
             ASSERT_EQ(throughput_of(*rays, i), glm::dvec3(1));
             ASSERT_TRUE(rays->pdf == nullptr || rays->pdf[i] == std::numeric_limits<float>::infinity());
-            ASSERT_TRUE(rays->eta_scale == nullptr || rays->eta_scale[i] == 1.0f);
+            ASSERT_TRUE(rays->roulette_scale == nullptr || rays->roulette_scale[i] == 1.0f);
             ASSERT_EQ(rays->departed[i], kernels::no_sphere);
             ASSERT_EQ(rays->slot[i], i);
             ASSERT_EQ(rays->pixel[i], slots->pixel[i]);
@@ -93,14 +93,14 @@ protected:
 
 TEST_P(GenerateTest, PinholeRaysFollowTheFormula) {
     for (const std::uint32_t count : awkward_counts) expect_agrees({}, count);
-    expect_agrees({}, 17, {"pdf", "eta_scale"});
+    expect_agrees({}, 17, {"pdf", "roulette_scale"});
 }
 
 TEST_P(GenerateTest, LensRaysMeetInFocus) {
     View view;
     view.lens_radius = 0.25, view.focal_distance = 5;
     for (const std::uint32_t count : awkward_counts) expect_agrees(view, count);
-    expect_agrees(view, 17, {"pdf", "eta_scale"});
+    expect_agrees(view, 17, {"pdf", "roulette_scale"});
 }
 
 class GenerateSampling : public GenerateTest {};

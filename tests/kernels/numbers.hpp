@@ -45,7 +45,7 @@ inline void put_ray(const RayView& q, std::uint32_t i, const glm::dvec3& origin,
     put3(q.dx, q.dy, q.dz, i, glm::normalize(direction));
     put3(q.tr, q.tg, q.tb, i, throughput);
     if (q.pdf != nullptr) q.pdf[i] = std::numeric_limits<float>::infinity();
-    if (q.eta_scale != nullptr) q.eta_scale[i] = 1;
+    if (q.roulette_scale != nullptr) q.roulette_scale[i] = 1;
     q.departed[i] = left;
     q.slot[i] = i;
     q.pixel[i] = i / 4;

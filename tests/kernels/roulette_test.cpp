@@ -34,7 +34,7 @@ protected:
             for (std::uint32_t i = begin; i < begin + lengths[k]; ++i) {
                 put_ray(*q.rays, i, random.point(9), random.direction(), random.below(99), random.colour() * 1.4);
                 if (q.rays->pdf != nullptr) q.rays->pdf[i] = narrow(random.uniform());
-                if (q.rays->eta_scale != nullptr) q.rays->eta_scale[i] = narrow(random.scale(0.4, 2.5));
+                if (q.rays->roulette_scale != nullptr) q.rays->roulette_scale[i] = narrow(random.scale(0.4, 2.5));
                 q.rays->slot[i] = i / 2;
                 q.rays->pixel[i] = random.below(1000);
                 if (random.uniform() < 0.2) put3(q.rays->tr, q.rays->tg, q.rays->tb, i, glm::dvec3(0));
@@ -57,7 +57,8 @@ protected:
             for (std::uint32_t i = run.begin; i < run.begin + run.count; ++i) {
                 const glm::dvec3 throughput = throughput_of(*q.rays, i);
                 const double carried = std::max({throughput.x, throughput.y, throughput.z});
-                const double scale = q.rays->eta_scale != nullptr ? static_cast<double>(q.rays->eta_scale[i]) : 1.0;
+                const double scale =
+                    q.rays->roulette_scale != nullptr ? static_cast<double>(q.rays->roulette_scale[i]) : 1.0;
                 const double survival = play ? std::min(1.0, carried / scale) : 1.0;
                 const double u = random_reference(seed, 2, q.rays->pixel[i], q.rays->sample[i], bounce)[0];
                 ASSERT_GT(std::abs(u - survival), 1e-7) << "too close to call: choose another seed";
@@ -88,7 +89,7 @@ TEST_P(RouletteTest, SurvivorsMoveToTheFrontInOrder) {
         }
         expect_agrees(queue_of({1, 2, 3, 4, 5}, 9), play);
         expect_agrees(queue_of({1000, 500, 17, 31, 999}, 3), play);
-        expect_agrees(queue_of({125, 17}, 4, {"pdf", "eta_scale"}), play);
+        expect_agrees(queue_of({125, 17}, 4, {"pdf", "roulette_scale"}), play);
     }
 }
 
@@ -104,7 +105,7 @@ TEST_P(RouletteTest, WithoutPlayTheLivingAreUnchanged) {
 TEST_P(RouletteTest, AllDeadAndAllCertain) {
     Queue dead = queue_of({125, 0, 40});
     for (std::uint32_t i = 0; i < dead.end; ++i) put3(dead.rays->tr, dead.rays->tg, dead.rays->tb, i, glm::dvec3(0));
-    Queue certain = queue_of({125, 0, 40}, 2, {"eta_scale"});
+    Queue certain = queue_of({125, 0, 40}, 2, {"roulette_scale"});
     for (std::uint32_t i = 0; i < certain.end; ++i) certain.rays->tg[i] = 1;
     const Slots slots(208);
     for (const bool play : {true, false}) {
@@ -125,7 +126,7 @@ TEST_P(RouletteTest, NodesTakeThePlaceOfTheBounce) {
         });
         q.rays->vertex[i] = 1000 + i;
         put3(q.rays->tr, q.rays->tg, q.rays->tb, i, glm::dvec3(0.5));
-        q.rays->eta_scale[i] = 1;
+        q.rays->roulette_scale[i] = 1;
     }
     const Rays before = q.rays;
     const std::uint32_t size = stages.roulette(*slots, seed, bounce, true, q.runs, *q.rays);
@@ -144,7 +145,7 @@ TEST_P(RouletteTest, NoNumberIsLostWhicheverChannelItIsIn) {
     for (const bool play : {false, true}) {
         for (int channel = 0; channel < 3; ++channel) {
             for (const double others : {0.0, 0.01}) {
-                Queue q = queue_of({1}, 1, {"eta_scale"});
+                Queue q = queue_of({1}, 1, {"roulette_scale"});
                 glm::dvec3 throughput(others);
                 throughput[channel] = std::numeric_limits<double>::quiet_NaN();
                 put3(q.rays->tr, q.rays->tg, q.rays->tb, 0, throughput);
@@ -157,7 +158,7 @@ TEST_P(RouletteTest, NoNumberIsLostWhicheverChannelItIsIn) {
 
 TEST_P(RouletteTest, ExpectationIsUnchanged) {
     constexpr std::uint32_t count = 1u << 17;
-    Queue q = queue_of({count}, 1, {"eta_scale"});
+    Queue q = queue_of({count}, 1, {"roulette_scale"});
     const Rays before = q.rays;
     const Slots slots(16);
     const std::uint32_t size = stages.roulette(*slots, seed, bounce, true, q.runs, *q.rays);

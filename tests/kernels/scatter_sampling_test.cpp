@@ -31,7 +31,7 @@ protected:
         constexpr std::uint32_t batch = 4096;
         const World world({{glm::dvec3(0), 1}}, {surface});
         const Slots slots(16);
-        const Rays arriving(batch, {"eta_scale"});
+        const Rays arriving(batch, {"roulette_scale"});
         const Hits hits(batch);
         const Lobes lobes(batch);
         const double distance = at.inside ? std::cos(at.angle) : 1.0;

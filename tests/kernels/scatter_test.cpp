@@ -48,8 +48,8 @@ protected:
                 c + random.direction() * world.radius(k) * (inside ? 0.95 * random.uniform() : random.scale(1.05, 10));
             put_ray(*w.rays, i, o, c + random.direction() * world.radius(k) * 0.98 * random.uniform() - o, no_sphere,
                     random.colour());
-            const float eta_scale = narrow(random.scale(0.5, 2));
-            if (w.rays->eta_scale != nullptr) w.rays->eta_scale[i] = eta_scale;
+            const float roulette_scale = narrow(random.scale(0.5, 2));
+            if (w.rays->roulette_scale != nullptr) w.rays->roulette_scale[i] = roulette_scale;
             w.rays->slot[i] = i - begin;
             const Roots at = roots(origin_of(*w.rays, i), direction_of(*w.rays, i), c, world.radius(k));
             w.hits->t[i] = i % 7 == 6 ? infinity : narrow(inside ? at.far : at.near);
@@ -160,7 +160,7 @@ TEST_P(ScatterTest, Diffuse) {
                           const double cosine = glm::dot(e.leaving, e.normal);
                           ASSERT_GT(cosine, -3e-6);
                           ASSERT_NEAR(after.rays->pdf[e.i], competing ? cosine / pi : 0, 2e-6);
-                          ASSERT_EQ(after.rays->eta_scale[e.i], before.rays->eta_scale[e.i]);
+                          ASSERT_EQ(after.rays->roulette_scale[e.i], before.rays->roulette_scale[e.i]);
                       });
 }
 
@@ -170,7 +170,7 @@ TEST_P(ScatterTest, Specular) {
                       expect_colour(e.factor, rho_of(world, e.sphere));
                       ASSERT_LT(glm::length(e.leaving - mirror(e.arriving, e.normal)), 6e-6);
                       ASSERT_EQ(after.rays->pdf[e.i], infinity);
-                      ASSERT_EQ(after.rays->eta_scale[e.i], before.rays->eta_scale[e.i]);
+                      ASSERT_EQ(after.rays->roulette_scale[e.i], before.rays->roulette_scale[e.i]);
                   });
 }
 
@@ -190,19 +190,19 @@ Branch branch_at(const glm::dvec3& arriving, const glm::dvec3& n, double eta, do
 
 TEST_P(ScatterTest, Dielectric) {
     std::uint32_t open = 0, reflected = 0, transmitted = 0;
-    for_every_hit(Scattering::dielectric, true,
-                  [&](const World& world, const Wave& before, const Wave& after, const Event& e) {
-                      const double index = world.materials.eta[e.sphere];
-                      const Branch b = branch_at(e.arriving, e.normal, e.side == 0 ? index : 1 / index, e.random[2],
-                                                 rho_of(world, e.sphere), tau_of(world, e.sphere));
-                      if (b.open) return void(++open);
-                      ++(b.reflected ? reflected : transmitted);
-                      expect_colour(e.factor, b.weight * b.scale);
-                      ASSERT_LT(glm::length(e.leaving - b.direction), 1e-5 / std::max(b.cosine, 0.01));
-                      ASSERT_EQ(after.rays->pdf[e.i], infinity);
-                      const double scale = static_cast<double>(after.rays->eta_scale[e.i]);
-                      ASSERT_NEAR(scale / static_cast<double>(before.rays->eta_scale[e.i]), b.scale, 1e-6 * b.scale);
-                  });
+    for_every_hit(
+        Scattering::dielectric, true, [&](const World& world, const Wave& before, const Wave& after, const Event& e) {
+            const double index = world.materials.eta[e.sphere];
+            const Branch b = branch_at(e.arriving, e.normal, e.side == 0 ? index : 1 / index, e.random[2],
+                                       rho_of(world, e.sphere), tau_of(world, e.sphere));
+            if (b.open) return void(++open);
+            ++(b.reflected ? reflected : transmitted);
+            expect_colour(e.factor, b.weight * b.scale);
+            ASSERT_LT(glm::length(e.leaving - b.direction), 1e-5 / std::max(b.cosine, 0.01));
+            ASSERT_EQ(after.rays->pdf[e.i], infinity);
+            const double scale = static_cast<double>(after.rays->roulette_scale[e.i]);
+            ASSERT_NEAR(scale / static_cast<double>(before.rays->roulette_scale[e.i]), b.scale, 1e-6 * b.scale);
+        });
     EXPECT_LT(open, 20u);
     EXPECT_GT(reflected, 100u);
     EXPECT_GT(transmitted, 500u);
@@ -232,29 +232,29 @@ TEST_P(ScatterTest, Glossy) {
                           const double beta = world.materials.roughness[e.sphere];
                           expect_in_lobe(lobe, e.normal, beta, e.leaving,
                                          competing ? pdf : glossy_density(lobe, e.normal, beta, e.leaving));
-                          ASSERT_EQ(after.rays->eta_scale[e.i], before.rays->eta_scale[e.i]);
+                          ASSERT_EQ(after.rays->roulette_scale[e.i], before.rays->roulette_scale[e.i]);
                       });
 }
 
 TEST_P(ScatterTest, Translucent) {
     std::uint32_t open = 0, reflected = 0, transmitted = 0;
-    for_every_hit(Scattering::translucent, true,
-                  [&](const World& world, const Wave& before, const Wave& after, const Event& e) {
-                      const double index = world.materials.eta[e.sphere];
-                      const Branch b = branch_at(e.arriving, e.normal, e.side == 0 ? index : 1 / index, e.random[2],
-                                                 rho_of(world, e.sphere), tau_of(world, e.sphere));
-                      if (b.open) return void(++open);
-                      ++(b.reflected ? reflected : transmitted);
-                      expect_colour(e.factor, b.weight * b.scale);
-                      const glm::dvec3 lobe = get3(after.lobes->x, after.lobes->y, after.lobes->z, e.i);
-                      ASSERT_LT(glm::length(lobe - b.direction), 1e-5 / std::max(b.cosine, 0.01));
-                      if (b.cosine > 0.01)  // beyond that the side's probability hangs on the
-                                            // lobe's last digits
-                          expect_in_lobe(lobe, b.reflected ? e.normal : -e.normal, world.materials.roughness[e.sphere],
-                                         e.leaving, static_cast<double>(after.rays->pdf[e.i]));
-                      const double scale = static_cast<double>(after.rays->eta_scale[e.i]);
-                      ASSERT_NEAR(scale / static_cast<double>(before.rays->eta_scale[e.i]), b.scale, 1e-6 * b.scale);
-                  });
+    for_every_hit(
+        Scattering::translucent, true, [&](const World& world, const Wave& before, const Wave& after, const Event& e) {
+            const double index = world.materials.eta[e.sphere];
+            const Branch b = branch_at(e.arriving, e.normal, e.side == 0 ? index : 1 / index, e.random[2],
+                                       rho_of(world, e.sphere), tau_of(world, e.sphere));
+            if (b.open) return void(++open);
+            ++(b.reflected ? reflected : transmitted);
+            expect_colour(e.factor, b.weight * b.scale);
+            const glm::dvec3 lobe = get3(after.lobes->x, after.lobes->y, after.lobes->z, e.i);
+            ASSERT_LT(glm::length(lobe - b.direction), 1e-5 / std::max(b.cosine, 0.01));
+            if (b.cosine > 0.01)  // beyond that the side's probability hangs on the
+                                  // lobe's last digits
+                expect_in_lobe(lobe, b.reflected ? e.normal : -e.normal, world.materials.roughness[e.sphere], e.leaving,
+                               static_cast<double>(after.rays->pdf[e.i]));
+            const double scale = static_cast<double>(after.rays->roulette_scale[e.i]);
+            ASSERT_NEAR(scale / static_cast<double>(before.rays->roulette_scale[e.i]), b.scale, 1e-6 * b.scale);
+        });
     EXPECT_LT(open, 20u);
     EXPECT_GT(reflected, 100u);
     EXPECT_GT(transmitted, 500u);
@@ -264,7 +264,7 @@ TEST_P(ScatterTest, FieldsThePlanLeavesOutMayBeMissing) {
     for (std::uint32_t kind = 0; kind < kernels::scattering_count; ++kind) {
         const World world = world_of(static_cast<Scattering>(kind));
         const Slots slots(16);
-        const Wave full = wave_of(world, 125), lean = wave_of(world, 125, {"pdf", "eta_scale"});
+        const Wave full = wave_of(world, 125), lean = wave_of(world, 125, {"pdf", "roulette_scale"});
         const Lobes no_lobes(0, {"lobe_x", "lobe_y", "lobe_z"});
         stages.scatter[kind](context_of(world, slots, true), {begin, 125}, *full.rays, *full.hits, *full.lobes);
         stages.scatter[kind](context_of(world, slots, true), {begin, 125}, *lean.rays, *lean.hits, *no_lobes);

@@ -103,7 +103,7 @@ TEST_P(SobolTest, CameraRaysTakeTheirSlotsPoints) {
 TEST_P(SobolTest, RaysOfARunTakeThePointsOfTheirVertex) {
     constexpr std::uint32_t begin = 32, count = 75, capacity = 160, bounce = 3;
     for (const bool whitted : {false, true}) {
-        Rays rays = whitted ? Rays(capacity, Rays::InTrees{}, {"eta_scale"}) : Rays(capacity, {"eta_scale"});
+        Rays rays = whitted ? Rays(capacity, Rays::InTrees{}, {"roulette_scale"}) : Rays(capacity, {"roulette_scale"});
         Slots slots(capacity);
         Points points(capacity);
         kernels::SlotTable<float> table = *slots;

@@ -41,12 +41,13 @@ protected:
     static Wave wave_of(const std::vector<std::uint32_t>& kinds, bool all_fields = true) {
         const auto count = static_cast<std::uint32_t>(kinds.size());
         const std::uint32_t capacity = kernels::ray_capacity(count);
-        Wave w{all_fields ? Rays(capacity) : Rays(capacity, {"pdf", "eta_scale"}), Hits(capacity), kinds};
+        Wave w{all_fields ? Rays(capacity) : Rays(capacity, {"pdf", "roulette_scale"}), Hits(capacity), kinds};
         Numbers random(count);
         for (std::uint32_t i = 0; i < count; ++i) {
             put_ray(*w.rays, i, random.point(9), random.direction(), random.below(9), random.colour());
             if (i % 3 == 0) w.rays->tg[i] = w.rays->tb[i] = 0;  // one channel is enough to live
-            if (all_fields) w.rays->pdf[i] = narrow(random.uniform()), w.rays->eta_scale[i] = narrow(random.uniform());
+            if (all_fields)
+                w.rays->pdf[i] = narrow(random.uniform()), w.rays->roulette_scale[i] = narrow(random.uniform());
             const bool dead = kinds[i] == absent && i % 2 == 0;
             const std::uint32_t kind = kinds[i] == absent ? random.below(scattering_count) : kinds[i];
             w.hits->id[i] = (kind + scattering_count * random.below(3)) | (i % 4 == 1 ? inside_bit : 0);
@@ -82,7 +83,7 @@ protected:
         const World world = world_of_kinds();
         const auto count = static_cast<std::uint32_t>(w.kind.size());
         const std::uint32_t capacity = kernels::ray_capacity(count);
-        Rays sorted = all_fields ? Rays(capacity) : Rays(capacity, {"pdf", "eta_scale"});
+        Rays sorted = all_fields ? Rays(capacity) : Rays(capacity, {"pdf", "roulette_scale"});
         Hits sorted_hits(capacity);
         const Rays before = sorted;
         const Hits hits_before = sorted_hits;
@@ -203,7 +204,7 @@ TEST_P(SortTest, CapacityOfWaveStorageHoldsEverySplit) {
     const World world = world_of_kinds();
     Needs needs;
     needs.scattering = all_kinds;
-    needs.sort = needs.scattering_pdf = needs.eta_scale = true;
+    needs.sort = needs.scattering_pdf = needs.roulette_scale = true;
     for (std::uint32_t each = 1; each <= 2 * kernels::widest; ++each) {
         // All of the last kind but one come first, so that the last record is written alone and its vector reaches
         // furthest.

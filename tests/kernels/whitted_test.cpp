@@ -20,7 +20,8 @@ struct Stack {
     kernels::BranchStack<float> view;
 
     Stack(std::uint32_t slots, std::uint32_t levels)
-        : rays(std::size_t{slots} * levels, Rays::InTrees{}, {"pdf", "eta_scale", "pixel", "sample"}), heights(slots) {
+        : rays(std::size_t{slots} * levels, Rays::InTrees{}, {"pdf", "roulette_scale", "pixel", "sample"}),
+          heights(slots) {
         view.slots = slots;
         view.height = heights->id;
         view.rays = *rays;
@@ -66,7 +67,7 @@ TEST_P(WhittedTest, RaysExpireAtTheDepth) {
 TEST_P(WhittedTest, AMirrorTakesARayToItsFirstChild) {
     constexpr auto mirror = static_cast<std::size_t>(Scattering::specular);
     const World world({{glm::dvec3(0), 1}}, {Surface{Scattering::specular}});
-    Rays rays(64, Rays::InTrees{}, {"pdf", "eta_scale"});
+    Rays rays(64, Rays::InTrees{}, {"pdf", "roulette_scale"});
     const Hits hits(64);
     const Slots slots(16);
     const Lobes no_lobes(0, {"lobe_x", "lobe_y", "lobe_z"});
@@ -94,7 +95,7 @@ TEST_P(WhittedTest, BranchesAreFresnels) {
     counts.push_back(2001);
     for (const std::uint32_t count : counts) {
         const std::uint32_t capacity = begin + kernels::padded_run(count) + 16;
-        Rays rays(capacity, Rays::InTrees{}, {"pdf", "eta_scale"});
+        Rays rays(capacity, Rays::InTrees{}, {"pdf", "roulette_scale"});
         Hits hits(capacity);
         const Slots slots(16);
         Stack stack(std::max(count, 1u), levels);
@@ -195,7 +196,7 @@ TEST_P(WhittedTest, NoNumberIsLostWhicheverChannelItIsIn) {
         for (const double others : {0.0, 1e-9, 1.0}) {
             glm::dvec3 throughput(others);
             throughput[channel] = std::numeric_limits<double>::quiet_NaN();
-            const Rays rays(48, Rays::InTrees{}, {"pdf", "eta_scale"});
+            const Rays rays(48, Rays::InTrees{}, {"pdf", "roulette_scale"});
             const Hits hits(48);
             const Slots slots(16);
             const Stack stack(16, 2);
@@ -215,7 +216,7 @@ TEST_P(WhittedTest, ResumeTakesTheTopBranchOfEverySlotWithoutARay) {
     for (const std::uint32_t slot_count : {1u, 15u, 17u, 125u}) {
         constexpr std::uint32_t levels = 3;
         const std::uint32_t capacity = kernels::round_up(slot_count) + 16;
-        Rays rays(capacity, Rays::InTrees{}, {"pdf", "eta_scale"});
+        Rays rays(capacity, Rays::InTrees{}, {"pdf", "roulette_scale"});
         Slots slots(slot_count);
         Stack stack(slot_count, levels);
         std::vector<std::uint32_t> live(slot_count, 0);

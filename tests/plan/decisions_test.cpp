@@ -80,6 +80,7 @@ TEST(Decisions, SayWhatTheNeedsSay) {
         EXPECT_EQ(decision(all, "shadow: point lights").runs, needs.connect_point != 0);
         EXPECT_EQ(decision(all, "shadow: area lights").runs, needs.connect_area != 0);
         EXPECT_EQ(decision(all, "shadow: closed form").runs, needs.exact);
+        EXPECT_EQ(decision(all, "shade: guide").runs, needs.guide);
         EXPECT_EQ(decision(all, "shadow: light choice").runs, needs.one_light);
         EXPECT_EQ(decision(all, "roulette: play").runs, needs.roulette);
         EXPECT_EQ(decision(all, "branches").runs, needs.branches);

@@ -22,7 +22,7 @@ TEST(Needs, NothingOfAnEmptyScene) {
         EXPECT_EQ(needs.integrator, integrator);
         EXPECT_EQ(needs.scattering, 0u);
         EXPECT_FALSE(needs.lens || needs.sort || needs.emitters || needs.background || needs.competing);
-        EXPECT_FALSE(needs.scattering_pdf || needs.eta_scale || needs.lobes || needs.branches);
+        EXPECT_FALSE(needs.scattering_pdf || needs.roulette_scale || needs.lobes || needs.branches);
         EXPECT_EQ(needs.connect_point | needs.connect_area, 0u);
     }
 }
@@ -149,7 +149,7 @@ TEST(Needs, OfWhittedAreThoseOfUnperturbedDirections) {
     EXPECT_TRUE(needs.branches && needs.sort && needs.emitters);
     EXPECT_EQ(needs.connect_point, bit(Scattering::diffuse)) << "direct light at diffuse hits";
     EXPECT_EQ(needs.connect_area, bit(Scattering::diffuse));
-    EXPECT_FALSE(needs.roulette || needs.eta_scale || needs.scattering_pdf || needs.competing || needs.lobes);
+    EXPECT_FALSE(needs.roulette || needs.roulette_scale || needs.scattering_pdf || needs.competing || needs.lobes);
 
     scene = world({diffuse, glossy});
     scene.settings.integrator = Integrator::whitted;
@@ -166,7 +166,7 @@ TEST(Needs, OfDepthAreTheFirstHits) {
     EXPECT_EQ(needs.scattering, 0u);
     EXPECT_EQ(needs.connect_point | needs.connect_area, 0u);
     EXPECT_FALSE(needs.sort || needs.emitters || needs.background || needs.competing || needs.scattering_pdf);
-    EXPECT_FALSE(needs.eta_scale || needs.lobes || needs.roulette || needs.branches);
+    EXPECT_FALSE(needs.roulette_scale || needs.lobes || needs.roulette || needs.branches);
 }
 
 TEST(Needs, LightsThatShine) {
@@ -296,19 +296,20 @@ TEST(Needs, NoCompetitionWhereNoSurfaceSamplesLights) {
 TEST(Needs, RouletteWhereItIsOnAndPathsScatter) {
     Scene scene = world({diffuse, dielectric});
     EXPECT_TRUE(needs_of(scene).roulette);
-    EXPECT_TRUE(needs_of(scene).eta_scale);
+    EXPECT_TRUE(needs_of(scene).roulette_scale);
     scene.settings.depth = 0;
-    EXPECT_FALSE(needs_of(scene).roulette || needs_of(scene).eta_scale);
+    EXPECT_FALSE(needs_of(scene).roulette || needs_of(scene).roulette_scale);
     scene.settings.depth = 5;
     scene.settings.roulette_from = 4;
-    EXPECT_TRUE(needs_of(scene).roulette && needs_of(scene).eta_scale);
+    EXPECT_TRUE(needs_of(scene).roulette && needs_of(scene).roulette_scale);
     scene.settings.roulette_from = 5;
-    EXPECT_FALSE(needs_of(scene).roulette || needs_of(scene).eta_scale) << "the game would begin behind the last event";
+    EXPECT_FALSE(needs_of(scene).roulette || needs_of(scene).roulette_scale)
+        << "the game would begin behind the last event";
     scene.settings.roulette_from = 0;
     scene.settings.roulette = false;
-    EXPECT_FALSE(needs_of(scene).roulette || needs_of(scene).eta_scale);
-    EXPECT_FALSE(needs_of(world({diffuse, glossy, specular})).eta_scale) << "nothing scales radiance";
-    EXPECT_TRUE(needs_of(world({translucent})).eta_scale);
+    EXPECT_FALSE(needs_of(scene).roulette || needs_of(scene).roulette_scale);
+    EXPECT_FALSE(needs_of(world({diffuse, glossy, specular})).roulette_scale) << "nothing scales radiance";
+    EXPECT_TRUE(needs_of(world({translucent})).roulette_scale);
 }
 
 }  // namespace
