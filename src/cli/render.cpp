@@ -94,8 +94,11 @@ std::variant<RenderResult, Stopped> render_until_signal(const Plan& plan, const 
 
 void note_fewer_samples(const Plan& plan, const Goal& goal) {
     if (goal.asked() || plan.samples() == plan.settings().samples) return;
-    print_message(fmt::format("orrery: note: stratified takes {} per pixel, the square number below the {} asked\n",
-                              counted(plan.samples(), "sample"), plan.settings().samples));
+    const auto [estimator, kind] = plan.settings().estimator == Estimator::stratified
+                                       ? std::pair{"stratified", "square"}
+                                       : std::pair{"sobol", "even"};
+    print_message(fmt::format("orrery: note: {} takes {} per pixel, the {} number below the {} asked\n", estimator,
+                              counted(plan.samples(), "sample"), kind, plan.settings().samples));
 }
 
 /// "x.film: goes on from 37 % of its samples"

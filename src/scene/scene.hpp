@@ -72,7 +72,7 @@ struct RenderSettings {
     std::uint32_t samples = 1;     ///< per pixel, >= 1
     std::uint32_t depth = 0;       ///< greatest number of scattering events on a path; 0..20 for whitted
     std::filesystem::path output;  ///< already resolved against the scene file's folder; may be empty
-    Estimator estimator = Estimator::stratified;
+    Estimator estimator = Estimator::sobol;
     Transport transport = Transport::mis;
     LightSampling light_sampling = LightSampling::exact;
     LightChoice light_choice = LightChoice::all;

@@ -109,7 +109,7 @@ TEST_F(Formats, CarryWhatMadeThem) {
     EXPECT_EQ(exr["orrery:samples"], "4");
     EXPECT_EQ(exr["orrery:version"], "orrery " + std::string(version()));
     EXPECT_EQ(exr["orrery:options"],
-              "--integrator depth --size 24x16 --spp 4 --estimator stratified --seed 7 --precision float");
+              "--integrator depth --size 24x16 --spp 4 --estimator sobol --seed 7 --precision float");
 }
 
 TEST_F(Formats, CarryNothingOfThisMachine) {

@@ -13,7 +13,8 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 TEST(Info, PrintsSettingsMemoryAndPlan) {
-    const Outcome outcome = orrery({"info", scene_file("tests/diffuse_area.json"), "--spp", "10", "--size", "640x480"});
+    const Outcome outcome = orrery({"info", scene_file("tests/diffuse_area.json"), "--spp", "10", "--size", "640x480",
+                                    "--estimator", "stratified"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
     EXPECT_THAT(outcome.output,
                 AllOf(ContainsRegex("size +640x480\n"), HasSubstr("9 per pixel, stratified 3 x 3 (10 asked)"),

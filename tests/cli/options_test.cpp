@@ -49,8 +49,9 @@ TEST(Options, SizeChangesTheImageAndNotTheView) {
     EXPECT_EQ(stats_of("tests/depth.json", {"--size", "5x3"})["size"], Json({5, 3}));
 }
 
-TEST(Options, SppIsRoundedDownToASquareOnlyWhenStratified) {
-    EXPECT_EQ(stats_of("tests/diffuse_area.json", {"--spp", "7"})["samples_per_pixel"], 4);
+TEST(Options, SppIsRoundedDownToWhatTheEstimatorTakes) {
+    EXPECT_EQ(stats_of("tests/diffuse_area.json", {"--spp", "7", "--estimator", "stratified"})["samples_per_pixel"], 4);
+    EXPECT_EQ(stats_of("tests/diffuse_area.json", {"--spp", "7"})["samples_per_pixel"], 6);
     EXPECT_EQ(stats_of("tests/diffuse_area.json", {"--spp", "7", "--estimator", "uniform"})["samples_per_pixel"], 7);
 }
 
@@ -60,7 +61,7 @@ TEST(Options, SeedChangesTheNoise) {
     EXPECT_NE(image_of("tests/diffuse_area.json", {"--seed", "4294967295"}), image);
 }
 
-TEST(Options, StratifiedSaysWhenItTakesFewerSamplesThanAsked) {
+TEST(Options, SayWhenFewerSamplesAreTakenThanAsked) {
     const auto said = [](Arguments options) {
         const TemporaryFolder folder;
         Arguments arguments = {"render", scene_file("tests/depth.json"), "--size", "4x4",
@@ -70,13 +71,18 @@ TEST(Options, StratifiedSaysWhenItTakesFewerSamplesThanAsked) {
         EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
         return outcome.error;
     };
-    EXPECT_THAT(said({"--spp", "8"}), HasSubstr("orrery: note: stratified takes 4 samples per pixel"));
-    EXPECT_THAT(said({"--spp", "3"}), HasSubstr("takes 1 sample per pixel, the square number below the 3 asked\n"));
-    for (const Arguments& exact :
-         {Arguments{"--spp", "9"}, {"--spp", "8", "--estimator", "sobol"}, {"--spp", "8", "--estimator", "uniform"}})
+    const auto stratified = [&](const char* samples) { return said({"--spp", samples, "--estimator", "stratified"}); };
+    EXPECT_THAT(stratified("8"), HasSubstr("orrery: note: stratified takes 4 samples per pixel"));
+    EXPECT_THAT(stratified("3"), HasSubstr("takes 1 sample per pixel, the square number below the 3 asked\n"));
+    EXPECT_THAT(stratified("9"), Not(HasSubstr("note")));
+    EXPECT_THAT(said({"--spp", "9"}),
+                HasSubstr("sobol takes 8 samples per pixel, the even number below the 9 asked\n"));
+    for (const Arguments& exact : {Arguments{"--spp", "8"}, {"--spp", "8", "--estimator", "uniform"}})
         EXPECT_THAT(said(exact), Not(HasSubstr("note")));
-    EXPECT_EQ(said({"--spp", "8", "--quiet"}), "");
-    EXPECT_EQ(stats_of("tests/depth.json", {"--size", "4x4", "--spp", "8"})["samples_per_pixel"], 4);
+    EXPECT_EQ(said({"--spp", "8", "--estimator", "stratified", "--quiet"}), "");
+    EXPECT_EQ(
+        stats_of("tests/depth.json", {"--size", "4x4", "--spp", "8", "--estimator", "stratified"})["samples_per_pixel"],
+        4);
 }
 
 TEST(Options, OneIsSingular) {

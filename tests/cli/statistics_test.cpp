@@ -92,9 +92,9 @@ TEST(Statistics, ProfileEndsWithTheOthersAndSumsToTheWallTime) {
 TEST(Statistics, TellTheErrorOfTheImageOrNullWhereNothingTells) {
     const TemporaryFolder folder;
     const auto stats = [&](const char* samples) {
-        const Outcome outcome =
-            orrery({"render", scene_file("tests/diffuse_area.json"), "-o", "x.ppm", "--spp", samples, "--stats", "-"},
-                   {.folder = folder.path()});
+        const Outcome outcome = orrery({"render", scene_file("tests/diffuse_area.json"), "-o", "x.ppm", "--spp",
+                                        samples, "--estimator", "stratified", "--stats", "-"},
+                                       {.folder = folder.path()});
         return Json::parse(outcome.output);
     };
     const Json coarse = stats("16"), fine = stats("1024");

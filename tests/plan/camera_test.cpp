@@ -70,6 +70,7 @@ TEST(ImagePlane, IsCutIntoPixelsAndCells) {
     scene.settings.width = 30;
     scene.settings.height = 10;
     scene.settings.samples = 10;
+    scene.settings.estimator = Estimator::stratified;
     {
         const Plan plan(scene);
         EXPECT_NEAR(plan.half_height(), 1, 1e-15);
@@ -128,6 +129,7 @@ TEST(Samples, AreRoundedDownToASquareOrAnEvenNumber) {
                                       {0xffffffffu, 65535u}}) {
         Scene scene = empty_world();
         scene.settings.samples = asked;
+        scene.settings.estimator = Estimator::stratified;
         EXPECT_EQ(Plan(scene).strata(), side) << asked;
         EXPECT_EQ(Plan(scene).samples(), side * side) << asked;
         scene.settings.estimator = Estimator::uniform;

@@ -86,7 +86,7 @@ TEST(SmallScenes, RendererOptionsOverrideDefaults) {
     EXPECT_EQ(chosen.seed, 7u);
 
     const RenderSettings defaults = load("tests/diffuse_point").settings;
-    EXPECT_EQ(defaults.estimator, Estimator::stratified);
+    EXPECT_EQ(defaults.estimator, Estimator::sobol);
     EXPECT_EQ(defaults.transport, Transport::mis);
     EXPECT_EQ(defaults.light_sampling, LightSampling::exact);
     EXPECT_TRUE(defaults.roulette);

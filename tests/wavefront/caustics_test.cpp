@@ -165,6 +165,7 @@ TEST(CausticsDepth, CountsTheEventsAtTheBall) {
 double gain(Scene scene, std::uint32_t samples) {
     const auto image = [&](bool caustics, std::uint32_t count, std::uint32_t seed) {
         scene.settings.caustics = caustics, scene.settings.samples = count, scene.settings.seed = seed;
+        scene.settings.estimator = Estimator::stratified;
         return render(Plan(scene), {}).image;
     };
     const Image truth = image(true, 65536, 1);

@@ -9,7 +9,7 @@
 namespace orrery::test {
 namespace {
 
-constexpr std::uint64_t pixels = 16 * 16, samples = 9, paths = pixels * samples;
+constexpr std::uint64_t pixels = 16 * 16, samples = 8, paths = pixels * samples;
 
 /// A ball that fills the image; whatever its rays do next, they do not meet it again.
 Scene filled(const Material& material, std::uint32_t depth) {

@@ -73,6 +73,7 @@ TEST(Stratified, TakesTheLargestSquareOfSamples) {
     for (const auto& [asked, taken] : {std::pair{1u, 1u}, {2u, 1u}, {3u, 1u}, {4u, 4u}, {8u, 4u}, {99u, 81u}}) {
         Scene scene = edges();
         scene.settings.samples = asked;
+        scene.settings.estimator = Estimator::stratified;
         const RenderStats stratified = render(scene).stats;
         EXPECT_EQ(stratified.samples_per_pixel, taken);
         EXPECT_EQ(stratified.closest_rays, 256 * taken);

@@ -112,7 +112,7 @@ TEST(GuidedMean, IsThatOfUnguided) {
         Scene scene = screened();
         std::ranges::find(cases, std::string_view(name), &Case::name)->build(scene);
         const auto blocks = [&](Guide guide) {
-            return blocks_of(scene, variant("", guide), {.samples = 1 << 14, .seeds = 8, .block_size = 16});
+            return blocks_of(scene, variant("", guide), {.samples = 1 << 13, .seeds = 8, .block_size = 16});
         };
         const auto comparison = statistics::compare(blocks(Guide::on), blocks(Guide::off), one_of_the_family);
         EXPECT_TRUE(comparison.agrees) << name << ": " << comparison.message;

@@ -17,6 +17,7 @@ const dvec3 place{0.3, -0.45, 0.7};
 Scene before_white(const Material& material) {
     Scene scene = picture(place - dvec3{0, 0, 4}, place, 10, 4000);
     scene.settings.samples = 64;
+    scene.settings.estimator = Estimator::stratified;
     scene.settings.roulette = false;
     scene.background = dvec3{1};
     add_sphere(scene, place, 1, material);
