@@ -135,7 +135,7 @@ TEST(Progress, EndsAtOneWithAllRays) {
     const RenderStats stats = render(scene, {.threads = 1,
                                              .progress =
                                                  [&](double fraction, std::uint64_t so_far) {
-                                                     EXPECT_GT(fraction, last);
+                                                     EXPECT_GE(fraction, last);
                                                      EXPECT_GE(so_far, rays);
                                                      last = fraction;
                                                      rays = so_far;
