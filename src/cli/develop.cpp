@@ -37,7 +37,8 @@ int develop_films(const Developed& asked) {
     Making making = making_of(subject);
     for (const auto& [setting, value] : request.overrides) setting->member.set(making.settings, value);
     making.exposure = request.exposure.value_or(making.exposure);
-    if (making.settings.width != film.width() || making.settings.height != film.height())
+    const Window window = making.settings.window();
+    if (window.width() != film.width() || window.height() != film.height())
         throw std::runtime_error(
             fmt::format("{}: damaged: it is not of the size it says", request.films.front().string()));
     making.samples = ledger->samples().mean();

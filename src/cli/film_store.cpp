@@ -168,9 +168,9 @@ std::unique_ptr<Ledger> resume_film(const fs::path& file, const Plan& plan, cons
         refuse(file, fmt::format("is the film of another render: shard: found {}/{}, expected {}/{}",
                                  state.shard.number, state.shard.of, shard.number, shard.of));
     if (state.halves && !goal.asked()) refuse(file, "was begun with --error or --time, expected one of these");
-    const RenderSettings& settings = plan.settings();
-    if (reader.width() != settings.width || reader.height() != settings.height ||
-        reader.contrasting() != contrasting_of(settings))
+    const Window window = plan.settings().window();
+    if (reader.width() != window.width() || reader.height() != window.height() ||
+        reader.contrasting() != contrasting_of(plan.settings()))
         throw std::runtime_error(fmt::format("{}: damaged: it is not of the size it says", file.string()));
     std::unique_ptr<Ledger> ledger = ledger_for(file, reader);
     read_film(file, reader, *ledger);

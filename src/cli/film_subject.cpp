@@ -19,6 +19,8 @@ namespace {
 constexpr std::string_view goal_error = "goal: error", goal_time = "goal: time", goal_samples = "goal: spp",
                            goal_adaptive = "goal: adaptive";
 
+constexpr const char* no_crop = "off";
+
 /// Empty where there is no such entry.
 std::string_view value_in(const FilmSubject& subject, std::string_view key) {
     const auto entry = std::ranges::find(subject, key, [](const auto& pair) { return std::string_view(pair.first); });
@@ -61,6 +63,8 @@ FilmSubject film_subject(const Plan& plan, const Goal& goal, Isa isa, double exp
     subject.emplace_back("arithmetic", arithmetic(isa));
     for (const Setting& setting : all_settings())
         if (setting.matters(plan.settings())) subject.emplace_back(setting.option, text_of(setting, plan.settings()));
+    const std::optional<Window>& crop = plan.settings().crop;
+    subject.emplace_back("crop", crop ? text_of(*crop) : no_crop);
     subject.emplace_back("exposure", fmt::format("{}", exposure));
     if (goal.asked()) {
         subject.emplace_back(goal_error, fmt::format("{}", goal.error));
@@ -103,6 +107,7 @@ Making making_of(const FilmSubject& subject) {
         if (!value) throw std::runtime_error(fmt::format("damaged: found {} for its {}", in_quotes(text), setting.key));
         setting.member.set(settings, *value);
     }
+    if (const std::string_view crop = value_in(subject, "crop"); crop != no_crop) settings.crop = parse_window(crop);
     if (!value_in(subject, goal_adaptive).empty()) {
         making.goal.error = number_in<double>(subject, goal_error);
         making.goal.seconds = number_in<double>(subject, goal_time);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -43,6 +44,26 @@ double parse_limit(std::string_view text) {
     // from_chars reads "inf" and "nan", too; no limit is either.
     if (error == std::errc() && stop == end && std::isfinite(value) && !std::signbit(value)) return value;
     throw unexpected(text, "a number >= 0");
+}
+
+Window parse_window(std::string_view text) {
+    std::uint32_t numbers[4] = {};
+    std::string_view rest = text;
+    bool good = true;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t end = i < 3 ? std::min(rest.find(','), rest.size()) : rest.size();
+        const auto number = whole_number(rest.substr(0, end), 0, std::numeric_limits<std::uint32_t>::max());
+        good = good && number;
+        numbers[i] = number.value_or(0);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    const Window window{numbers[0], numbers[1], numbers[2], numbers[3]};
+    if (good && window.x0 < window.x1 && window.y0 < window.y1) return window;
+    throw unexpected(text, "X0,Y0,X1,Y1 in pixels with X0 < X1 and Y0 < Y1, such as 0,0,640,480");
+}
+
+std::string text_of(const Window& window) {
+    return fmt::format("{},{},{},{}", window.x0, window.y0, window.x1, window.y1);
 }
 
 double parse_exposure(std::string_view text) {

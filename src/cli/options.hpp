@@ -12,6 +12,7 @@
 #include "cli/process.hpp"
 #include "film/film_state.hpp"
 #include "kernels/isa.hpp"
+#include "scene/scene.hpp"
 
 namespace orrery {
 
@@ -35,6 +36,10 @@ std::uint32_t parse_integer(std::string_view text, std::uint32_t low, std::uint3
 
 /// A finite decimal number >= 0, with or without fraction and exponent, nothing before or after it. Throws UsageError.
 double parse_limit(std::string_view text);
+
+/// "0,0,640,480": columns and rows of which there is one at least. Throws UsageError.
+Window parse_window(std::string_view text);
+std::string text_of(const Window& window);
 
 /// A decimal number from -100 to 100. Throws UsageError.
 double parse_exposure(std::string_view text);

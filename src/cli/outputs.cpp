@@ -65,6 +65,8 @@ Outputs choose_outputs(const Request& request, const RenderSettings& settings, c
     Outputs outputs;
     outputs.images = request.outputs;
     outputs.film = request.film;
+    if (request.film_every && !request.film)
+        throw UsageError("--film-every: found no --film, expected the film to save so often");
     if (request.shard && !request.film) throw UsageError("--shard: found no --film, expected the film to keep it in");
     if (request.shard && (!request.outputs.empty() || request.error_image))
         throw UsageError("--shard: found an image to write, expected none: develop makes it of all shards' films");
@@ -96,8 +98,9 @@ Outputs choose_outputs(const Request& request, const RenderSettings& settings, c
 }
 
 void require_writable(const Outputs& outputs, const RenderSettings& settings) {
+    const Window window = settings.window();
     const auto require_image = [&](const fs::path& image) {
-        AtomicFile(image, least_file_size(image_format(image), settings.width, settings.height));
+        AtomicFile(image, least_file_size(image_format(image), window.width(), window.height()));
     };
     for (const fs::path& image : outputs.images) {
         // A failure is left to AtomicFile, which says more about it.

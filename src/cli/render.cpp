@@ -120,8 +120,8 @@ int render_scene(const Request& request) {
     if (!scene) return exit_code::misused;
     const Goal goal = goal_of(request);
     if (goal.seconds > 0) {
-        const auto fault =
-            too_many_pixels(scene->settings.width, scene->settings.height, memory_limit(), timed_bytes_per_pixel);
+        const auto fault = too_many_pixels(scene->settings.window().width(), scene->settings.window().height(),
+                                           memory_limit(), timed_bytes_per_pixel);
         if (fault) throw UsageError("--time: " + *fault);
     }
     const Outputs outputs = choose_outputs(request, scene->settings, {scene->file});
@@ -210,6 +210,7 @@ Work add_render(CLI::App& app) {
     add_outputs(app, *request, " (default: the scene's output)");
     add_settings(app, *request);
     add_exposure(app, *request, "0");
+    add_crop(app, *request);
     add_film(app, *request);
     add_reports(app, *request);
     add_quiet(app, request->quiet);

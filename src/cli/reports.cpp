@@ -144,6 +144,7 @@ std::string canonical_options(const Making& making, ImageFormat format) {
             add(setting.option, text_of(setting, settings));
         }
     }
+    if (settings.crop) add("crop", text_of(*settings.crop));
     if (eight_bit && making.exposure != 0) add("exposure", making.exposure);
     return text;
 }
@@ -153,9 +154,9 @@ std::string canonical_options(const Making& making, ImageFormat format) {
 std::string summary(const Plan& plan, const Goal& goal, const RenderStats& stats) {
     const RenderSettings& settings = plan.settings();
     return fmt::format("{}: {} x {}, {} in {:.2f} s, {:.1f} Mrays/s ({}, {}){}{}\n",
-                       printable_whole(plan.scene().file.string()), settings.width, settings.height,
-                       samples_text(stats), stats.seconds, rays_per_second(stats) / 1e6, isa_name(stats.isa),
-                       counted(stats.threads, "thread"), error_text(stats.error.relative),
+                       printable_whole(plan.scene().file.string()), settings.window().width(),
+                       settings.window().height(), samples_text(stats), stats.seconds, rays_per_second(stats) / 1e6,
+                       isa_name(stats.isa), counted(stats.threads, "thread"), error_text(stats.error.relative),
                        stop_text(goal, stats.stopped_by));
 }
 
@@ -203,6 +204,7 @@ std::string statistics_json(const Plan& plan, const Goal& goal, const RenderStat
                     : setting.kind == SettingKind::number ? Json(value[0])
                                                           : Json(value);
     }
+    if (const auto& crop = plan.settings().crop) json["crop"] = {crop->x0, crop->y0, crop->x1, crop->y1};
     json.update({
         {"samples_per_pixel", stats.samples_per_pixel},
         {"samples_of_any_pixel", {stats.least_samples, stats.most_samples}},

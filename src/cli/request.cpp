@@ -65,8 +65,13 @@ void print_diagnostics(const Request& request, const std::vector<Diagnostic>& di
 
 /// Throws UsageError where the settings together are none a scene file could hold: `--integrator wrt` may be what makes
 /// the scene's own depth too much.
-void apply(const Overrides& overrides, RenderSettings& settings) {
+void apply(const Request& request, RenderSettings& settings) {
+    const Overrides& overrides = request.overrides;
     for (const auto& [setting, value] : overrides) setting->member.set(settings, value);
+    settings.crop = request.crop;
+    if (settings.crop && (settings.crop->x1 > settings.width || settings.crop->y1 > settings.height))
+        throw UsageError(fmt::format("--crop: found {}, expected a window of the image of {} x {}",
+                                     text_of(*settings.crop), settings.width, settings.height));
     for (const Conflict& conflict : conflicts(settings)) {
         const std::string whose = overrides.contains(&conflict.setting)
                                       ? fmt::format("--{}", conflict.setting.option)
@@ -118,6 +123,14 @@ void add_outputs(CLI::App& app, Request& request, const std::string& otherwise) 
         ->group("Image");
 }
 
+void add_crop(CLI::App& app, Request& request) {
+    add_option(
+        app, "--crop", "X0,Y0,X1,Y1",
+        "Render a window of the image alone: columns X0 to below X1, rows Y0 to below Y1, counted from the top left",
+        [&](const std::string& text) { request.crop = parse_window(text); })
+        ->group("Image");
+}
+
 void add_exposure(CLI::App& app, Request& request, const std::string& otherwise) {
     add_option(
         app, "--exposure", "EV",
@@ -151,6 +164,9 @@ Goal goal_of(const Request& request) {
     if (request.shard && request.shard->of > 1 && goal.asked())
         throw UsageError(fmt::format("--shard: found --{} beside it, which is of the whole image, expected --spp alone",
                                      goal.error > 0 ? "error" : "time"));
+    if (request.crop && goal.asked())
+        throw UsageError(fmt::format("--crop: found --{} beside it, which is of the whole image, expected --spp alone",
+                                     goal.error > 0 ? "error" : "time"));
     if (request.adaptive && !goal.asked())
         throw UsageError("--adaptive: found no stop to adapt to, expected --error or --time beside it");
     return goal;
@@ -159,7 +175,7 @@ Goal goal_of(const Request& request) {
 std::optional<Scene> load_scene(const Request& request) {
     ReadResult result = read_visibly(request);
     print_diagnostics(request, result.diagnostics);
-    if (result.scene) apply(request.overrides, result.scene->settings);
+    if (result.scene) apply(request, result.scene->settings);
     return std::move(result.scene);
 }
 

@@ -28,6 +28,7 @@ struct Request {
     std::optional<double> error;    ///< --error, as a share: 1 % is 0.01
     std::optional<double> seconds;  ///< --time
     std::optional<bool> adaptive;
+    std::optional<Window> crop;
     std::optional<double> exposure;
     std::optional<std::filesystem::path> film;
     std::vector<std::filesystem::path> films;  ///< develop only
@@ -48,6 +49,7 @@ Goal goal_of(const Request& request);
 /// Declare options that fill `request`.
 void add_outputs(CLI::App& app, Request& request, const std::string& otherwise);
 void add_error_image(CLI::App& app, Request& request);
+void add_crop(CLI::App& app, Request& request);
 void add_exposure(CLI::App& app, Request& request, const std::string& otherwise);
 /// `otherwise`: its default in words.
 void add_override(CLI::App& app, Overrides& overrides, const Setting& setting, const std::string& otherwise);

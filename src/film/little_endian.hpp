@@ -25,9 +25,9 @@ public:
 private:
     template <class Number>
     void number(Number x) {
-        std::byte bytes[sizeof x];
-        for (std::size_t i = 0; i < sizeof x; ++i) bytes[i] = static_cast<std::byte>(x >> 8 * i & 0xff);
-        append(bytes);
+        const std::size_t at = bytes_.size();
+        bytes_.resize(at + sizeof x);
+        for (std::size_t i = 0; i < sizeof x; ++i) bytes_[at + i] = static_cast<std::byte>(x >> 8 * i & 0xff);
     }
 
     std::vector<std::byte> bytes_;

@@ -64,6 +64,14 @@ enum class Precision : std::uint8_t { automatic, binary32, binary64 };
 /// Whether bounces are guided to bright spots; automatic: where that pays.
 enum class Guide : std::uint8_t { automatic, on, off };
 
+/// Pixels [x0, x1) by [y0, y1) of an image.
+struct Window {
+    std::uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+    std::uint32_t width() const { return x1 - x0; }
+    std::uint32_t height() const { return y1 - y0; }
+};
+
 /// The `renderer` object: what to compute, and where the file says the image goes.
 struct RenderSettings {
     Integrator integrator = Integrator::path_tracing;
@@ -86,6 +94,10 @@ struct RenderSettings {
     std::optional<ToneMap> tonemap;
     std::uint32_t seed = 0;
     Precision precision = Precision::automatic;
+    std::optional<Window> crop;  ///< within the image; no scene file has one
+
+    /// What is rendered of the image.
+    Window window() const { return crop.value_or(Window{0, 0, width, height}); }
 };
 
 struct Scene {

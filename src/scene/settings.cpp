@@ -172,7 +172,7 @@ std::vector<Conflict> conflicts(const RenderSettings& settings) {
                                                        "tracing",
                                                        settings.depth, deepest_whitted)});
     }
-    if (auto fault = too_many_pixels(settings.width, settings.height, memory_limit()))
+    if (auto fault = too_many_pixels(settings.window().width(), settings.window().height(), memory_limit()))
         found.push_back({setting("size"), std::move(*fault)});
     return found;
 }

@@ -35,6 +35,7 @@ Ledger::Samples Ledger::samples() const {
         sum.least = std::min(sum.least, region.taken);
         sum.most = std::max(sum.most, region.taken);
     }
+    if (sum.pixels == 0) sum.least = 0;
     return sum;
 }
 

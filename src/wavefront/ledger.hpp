@@ -33,7 +33,7 @@ public:
         std::uint64_t pixels = 0;
         std::uint32_t least = 0, most = 0;  ///< taken of any pixel
 
-        double mean() const { return taken / static_cast<double>(pixels); }
+        double mean() const { return pixels > 0 ? taken / static_cast<double>(pixels) : 0; }
     };
     Samples samples() const;
 

@@ -46,7 +46,8 @@ Passes::Passes(const Plan& plan, const Goal& goal, const FilmState& state)
       in_pilot_(state.pilot),
       share_before_(state.share_before),
       share_after_(state.share_after) {
-    const Tiling tiling = state.tiling(plan.settings().width, plan.settings().height);
+    const Window window = plan.settings().window();
+    const Tiling tiling = state.tiling(window.width(), window.height());
     for (std::size_t i = 0; i < tiling.size(); ++i) {
         const FilmRegion& region = state.regions[i];
         const auto pixels = static_cast<double>(tiling[i].pixels());

@@ -1,6 +1,7 @@
 #include "wavefront/render.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "wavefront/develop.hpp"
 #include "wavefront/ledger.hpp"
@@ -110,7 +111,12 @@ RenderResult render_in(const Plan& plan, const RenderOptions& options, Ledger& l
     stats.least_samples = samples.least;
     stats.most_samples = samples.most;
     stats.dropped_samples = samples.dropped;
-    if (ledger.state().shard.of > 1) return result;
+    if (ledger.state().shard.of > 1) {
+        constexpr RootMeanSquare unknown{std::numeric_limits<double>::infinity(), 0,
+                                         std::numeric_limits<double>::infinity()};
+        stats.error = {unknown, unknown};
+        return result;
+    }
 
     const Integrator integrator = plan.settings().integrator;
     const Developing how{workers.team(), cancellation};
@@ -127,7 +133,9 @@ std::unique_ptr<Ledger> begin_film(const Plan& plan, const Goal& goal, Shard sha
     const RenderSettings& settings = plan.settings();
     FilmState state = goal.asked() ? Passes::layout() : FilmState{.side = tile_side(plan.samples())};
     state.shard = shard;
-    auto ledger = std::make_unique<Ledger>(Film(settings.width, settings.height, contrasting_of(settings)), state);
+    const Window window = settings.window();
+    auto ledger =
+        std::make_unique<Ledger>(Film(window.width(), window.height(), contrasting_of(settings)), std::move(state));
     if (goal.asked()) return ledger;
     const Pattern all = whole_pattern(plan);
     std::vector<FilmRegion>& regions = ledger->state().regions;

@@ -70,7 +70,7 @@ struct RenderStats {
     std::uint64_t bytes_per_ray = 0;    ///< all queue storage per (pixel, sample) pair of a wave
     std::uint64_t queue_bytes = 0;      ///< all queue storage per thread
     std::uint64_t dropped_samples = 0;  ///< not finite, kept out of the film
-    ImageError error;                   ///< of the image, as its samples tell
+    ImageError error;                   ///< of the image, as its samples tell; of a shard it is not known
 };
 
 struct RenderResult {

@@ -30,6 +30,8 @@ template <class Real>
 void flush(Wave<Real>& wave, const Tile& tile) {
     if (wave.count == 0) return;
     const std::uint32_t width = wave.plan.settings().width;
+    const Window window = wave.plan.settings().window();
+    const std::uint32_t left = window.x0 + tile.x0, top = window.y0 + tile.y0;
     wave.cancellation.check();
     trace(wave);
     const auto& slots = wave.storage.slots;
@@ -38,7 +40,7 @@ void flush(Wave<Real>& wave, const Tile& tile) {
         while (end < wave.count && slots.pixel[end] == slots.pixel[s]) ++end;
         const Real* const radiance = slots.radiance + std::size_t{4} * s;
         const auto pixel = static_cast<std::uint32_t>(slots.pixel[s]);
-        const std::uint32_t x = pixel % width - tile.x0, y = pixel / width - tile.y0;
+        const std::uint32_t x = pixel % width - left, y = pixel / width - top;
         const std::size_t place = std::size_t{y} * tile.width() + x;
         wave.counters.dropped_samples += wave.film.add(place, radiance, end - s);
         wave.contrasts.add(wave.film, place, radiance, end - s);
@@ -47,8 +49,8 @@ void flush(Wave<Real>& wave, const Tile& tile) {
     wave.count = 0;
 }
 
-/// Fills slots with the samples of one pixel from the `begin`-th of the pattern on, as many as fit. Returns the first
-/// left.
+/// Fills slots with the samples of one pixel of the image from the `begin`-th of the pattern on, as many as fit.
+/// Returns the first left.
 template <class Real>
 std::uint32_t fill(Wave<Real>& wave, std::uint32_t x, std::uint32_t y, const Pattern& pattern, std::uint32_t begin) {
     const Plan& plan = wave.plan;
@@ -95,12 +97,13 @@ void render_tile(Wave<Real>& wave, const Task& task) {
     wave.camera.cell_width = static_cast<Real>(wave.plan.cell_width(pattern.strata));
     wave.camera.cell_height = static_cast<Real>(-wave.plan.cell_height(pattern.strata));
     wave.contrasts.begin(pattern.strata, pattern.visits > 1);
+    const Window window = wave.plan.settings().window();
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
             if (!tile.has(x, y)) continue;
             for (std::uint32_t sample = 0; sample < pattern.samples();) {
                 if (wave.count == wave.storage.slot_count) flush(wave, tile);
-                sample = fill(wave, x, y, pattern, sample);
+                sample = fill(wave, window.x0 + x, window.y0 + y, pattern, sample);
             }
         }
     }

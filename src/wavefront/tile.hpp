@@ -22,8 +22,9 @@ inline std::uint32_t tile_side(std::uint32_t samples) { return samples >= 8 ? 16
 /// (pixel, sample) pairs of a wave: what was asked for, or with 0 what was measured to be best for the plan's queues.
 std::uint32_t choose_wave_size(const Plan& plan, std::uint32_t asked);
 
-/// Adds the samples of a task to the wave's film, which has the tile's size, a wave at a time. Throws what the wave's
-/// Cancellation throws; the film then holds a part of them, and the wave is of no more use.
+/// Adds the samples of a task, whose tile is one of the settings' window, to the wave's film, which has the tile's
+/// size, a wave at a time. Throws what the wave's Cancellation throws; the film then holds a part of them, and the wave
+/// is of no more use.
 template <class Real>
 void render_tile(Wave<Real>& wave, const Task& task);
 

@@ -178,6 +178,64 @@ TEST_F(Film, OfShardsIsThatOfTheWhole) {
     EXPECT_FALSE(fs::exists(folder / "x.png"));
 }
 
+// Twelve tiles, so that the thirteenth shard has none.
+TEST_F(Film, OfAShardWithoutTilesIsOneOfThem) {
+    done(small + Words{"--spp", "8", "-o", "whole.exr"});
+    Words develop = {"develop", "-o", "parts.exr"};
+    for (int k = 1; k <= 13; ++k) {
+        const std::string number = std::to_string(k);
+        const Outcome outcome = run(small + Words{"--spp", "8", "--shard", number + "/13", "--film", number + ".film"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+        EXPECT_EQ(outcome.output, number + ".film\n");
+        EXPECT_EQ(outcome.error.find("error"), std::string::npos) << "of a shard none is known: " << outcome.error;
+        develop.push_back(number + ".film");
+    }
+    done(develop);
+    EXPECT_EQ(content("parts.exr"), content("whole.exr"));
+}
+
+/// Of a PFM file: the pixels of some columns and rows, which are counted from the top.
+std::string window_of(const std::string& pfm, std::size_t width, std::size_t height, std::size_t x0, std::size_t y0,
+                      std::size_t x1, std::size_t y1) {
+    const std::size_t pixel = 12, begin = pfm.size() - width * height * pixel;
+    std::string pixels;
+    for (std::size_t y = y1; y-- > y0;)
+        pixels += pfm.substr(begin + ((height - 1 - y) * width + x0) * pixel, (x1 - x0) * pixel);
+    return pixels;
+}
+
+TEST_F(Film, OfAWindowIsThatOfTheWhole) {
+    for (const Words& options :
+         {Words{"--estimator", "stratified", "--spp", "9"}, Words{"--estimator", "sobol", "--spp", "4"},
+          Words{"--integrator", "depth", "--spp", "1"}, Words{"--precision", "double", "--spp", "1"}}) {
+        done(small + options + Words{"-o", "whole.pfm"});
+        for (const auto& [crop, x0, y0, x1, y1] : {std::tuple{"0,0,64,48", 0u, 0u, 64u, 48u},
+                                                   {"5,7,40,31", 5u, 7u, 40u, 31u},
+                                                   {"63,47,64,48", 63u, 47u, 64u, 48u}}) {
+            const std::string expected = window_of(content("whole.pfm"), 64, 48, x0, y0, x1, y1);
+            const Words window = small + options + Words{"--crop", crop};
+            done(window + Words{"-o", "part.pfm", "--film", "x.film"});
+            EXPECT_EQ(window_of(content("part.pfm"), x1 - x0, y1 - y0, 0, 0, x1 - x0, y1 - y0), expected) << crop;
+            fs::remove(folder / "x.film");
+            done(window + Words{"--shard", "1/2", "--film", "1.film"});
+            done(window + Words{"--shard", "2/2", "--film", "2.film"});
+            done({"develop", "1.film", "2.film", "-o", "both.pfm"});
+            EXPECT_EQ(content("both.pfm"), content("part.pfm"));
+            for (const char* film : {"1.film", "2.film"}) fs::remove(folder / film);
+        }
+    }
+    const Words cropped = small + Words{"-o", "x.pfm", "--film", "x.film", "--spp", "1"};
+    done(cropped + Words{"--crop", "0,0,8,8"});
+    EXPECT_THAT(refused(cropped), HasSubstr("crop: found \"0,0,8,8\", expected \"off\""));
+    EXPECT_THAT(refused(cropped + Words{"--crop", "0,0,65,48"}),
+                HasSubstr("expected a window of the image of 64 x 48"));
+    EXPECT_THAT(refused(small + Words{"--error", "1%", "--crop", "0,0,8,8", "-o", "x.pfm"}),
+                HasSubstr("--crop: found --error beside it"));
+    for (const char* bad :
+         {"0,0,0,8", "8,0,4,8", "1,2,3", "1,2,3,4,5", "a,0,8,8", "-1,0,8,8", ",,,", "0,0,8,8,", "0 ,0,8,8"})
+        EXPECT_THAT(refused(cropped + Words{"--crop=" + std::string(bad)}), HasSubstr("--crop: found")) << bad;
+}
+
 TEST_F(Film, OfAnotherRenderIsRefusedInWords) {
     done(work + Words{"-o", "a.png", "--film", "x.film"});
     const std::string before = content("x.film");
@@ -201,6 +259,7 @@ TEST_F(Film, OfAnotherRenderIsRefusedInWords) {
     EXPECT_THAT(refused(work + Words{"--film", "y.film", "--shard", "1/2", "--error", "1%"}),
                 HasSubstr("--shard: found --error beside it"));
     EXPECT_THAT(refused(work + Words{"--shard", "1/2"}), HasSubstr("--shard: found no --film"));
+    EXPECT_THAT(refused(work + Words{"--film-every", "9s", "-o", "a.png"}), HasSubstr("--film-every: found no --film"));
     for (const char* bad : {"0/2", "3/2", "1", "1/", "/2", "1/0", "-1/2", "1/2x", "1/4294967296"})
         EXPECT_THAT(refused(work + Words{"--film", "y.film", "--shard", bad}), HasSubstr("expected K/N")) << bad;
     EXPECT_EQ(content("x.film"), before);

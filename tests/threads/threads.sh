@@ -26,6 +26,8 @@ expect 0 render "$scenes/assignment_01.json" --size 48x48 --error 3% --estimator
 expect 0 render "$scenes/assignment_03.json" --size 48x48 --time 2s -o "$folder/a.exr"
 expect 0 render "$folder/many.json" --size 64x64 --spp 2 --stats "$folder/a.json" -o "$folder/a.exr"
 expect 0 render "$folder/many.json" --size 64x64 --spp 2 --profile -o "$folder/a.exr"
+expect 0 render "$scenes/assignment_05.json" --size 64x64 --spp 16 --film "$folder/a.film" --film-every 1ms -o "$folder/a.exr"
+expect 0 render "$scenes/assignment_05.json" --size 64x64 --error 20% --film "$folder/a.film" --film-every 1ms -o "$folder/a.exr"
 
 # The signal comes in the middle of a render that would take minutes. A shell has it ignored by what it starts in the
 # background, and so it would stay.
