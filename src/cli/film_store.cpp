@@ -151,6 +151,8 @@ FilmReader open_film(const fs::path& file) {
 std::unique_ptr<Ledger> ledger_for(const fs::path& file, const FilmReader& reader) {
     if (const auto fault = too_many_pixels(reader.width(), reader.height(), memory_limit()))
         throw std::runtime_error(fmt::format("{}: {}", file.string(), *fault));
+    if (fs::file_size(file) < reader.least_size())
+        throw std::runtime_error(fmt::format("{}: damaged: the file ends early", file.string()));
     return std::make_unique<Ledger>(Film(reader.width(), reader.height(), reader.contrasting()), reader.state());
 }
 

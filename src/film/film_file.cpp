@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view magic("orrery\x1a\n", 8);
 constexpr std::uint32_t layout_version = 1;
-constexpr std::uint32_t largest_side = 1u << 16;
+constexpr std::uint32_t largest_dimension = 1u << 16, largest_side = 64;
 constexpr std::uint64_t longest_subject = 1u << 20, longest_head = 1u << 12;
 constexpr std::size_t kind_and_length = 12;
 constexpr std::size_t region_bytes = 40;  ///< of a "tile" section, before its pixels
@@ -37,6 +37,7 @@ void require(bool good, std::string_view what) {
 }
 
 std::uint32_t checksum(std::uint32_t before, std::span<const std::byte> bytes) {
+    if (bytes.empty()) return before;  // of no address zlib would begin anew
     return static_cast<std::uint32_t>(
         ::crc32_z(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
 }
@@ -256,8 +257,8 @@ void FilmReader::read_head() {
         sensible = sensible && x >= least && x <= most;
         return x;
     };
-    width_ = within(head.u32(), 1, largest_side);
-    height_ = within(head.u32(), 1, largest_side);
+    width_ = within(head.u32(), 1, largest_dimension);
+    height_ = within(head.u32(), 1, largest_dimension);
     contrasting_ = within(head.u8(), 0, 1) == 1 ? Contrasting::one : Contrasting::many;
     state_.halves = within(head.u8(), 0, 1) == 1;
     state_.pilot = within(head.u8(), 0, 1) == 1;
@@ -273,6 +274,11 @@ void FilmReader::read_head() {
     require(head.good() && sensible && state_.side % 2 == 0 && state_.seconds >= 0 && std::isfinite(state_.seconds) &&
                 is_share(state_.share_before) && is_share(state_.share_after),
             "its head makes no sense");
+}
+
+std::uint64_t FilmReader::least_size() const {
+    const std::uint64_t tiles = tiling().size(), number = state_.shard.number, of = state_.shard.of;
+    return (tiles < number ? 0 : (tiles - number) / of + 1) * (kind_and_length + region_bytes + 4);
 }
 
 FilmRegion FilmReader::read_region(const Section& section, std::size_t region, Film& film) const {

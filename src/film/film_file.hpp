@@ -14,8 +14,8 @@
 //     "what"  u32 number of entries; of each key and value u32 length and bytes: what the render is of
 //     "head"  u32 width, height; u8 1 for Contrasting::one, else 0; u8 1 where regions are halves of tiles, else 0;
 //             u8 1 while passes are spread evenly, else 0; u8 1 where the render is finished, else 0; u32 side of
-//             tiles; u32 shard, of how many; u32 passes; f64 seconds, share of the work before the present pass, share
-//             with it
+//             tiles, even, at most 64; u32 shard, of how many; u32 passes; f64 seconds, share of the work before the present
+//             pass, share with it
 //     "tile"  of every region of the shard, in order: u64 number; u32 taken, strata, visits, 0; u64 dropped;
 //             f64 scatter (FilmRegion has the meanings); where taken > 0 its pixels, row by row
 //     "end."  u64 number of "tile" sections
@@ -67,6 +67,9 @@ public:
     /// Without its regions.
     const FilmState& state() const { return state_; }
     Tiling tiling() const { return state_.tiling(width_, height_); }
+
+    /// Bytes that the whole file has at least, whatever is on the film: a shorter one is not worth the memory.
+    std::uint64_t least_size() const;
 
     /// Reads the rest, once, onto a film of the same size and contrasting, and the shard's regions into `regions`, of
     /// which there are as many as tiles. On an exception both hold a part of it.

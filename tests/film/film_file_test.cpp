@@ -64,7 +64,9 @@ protected:
 TEST_P(FilmFile, ComesBackAsItWas) {
     for (const Shard shard : {Shard{}, Shard{1, 2}, Shard{2, 2}}) {
         const WholeFilm before = film(shard);
-        const WholeFilm after = film_of(bytes_of(before), most_pixels, 7);
+        const FilmBytes bytes = bytes_of(before);
+        EXPECT_LE(FilmReader(source_of(bytes)).least_size(), bytes.size());
+        const WholeFilm after = film_of(bytes, most_pixels, 7);
         EXPECT_EQ(after.subject, before.subject);
         EXPECT_EQ(after.state.shard.number, shard.number);
         EXPECT_EQ(after.state.shard.of, shard.of);
@@ -162,6 +164,9 @@ TEST(FilmFileRoom, SkipsSectionsItDoesNotKnow) {
     EXPECT_NE(refusal(file), "") << "of a wrong checksum";
     repair_checksums(file);
     EXPECT_EQ(refusal(file), "");
+    file = with(file, 12, section("none", 0, 0));
+    repair_checksums(file);
+    EXPECT_EQ(refusal(file), "");
 }
 
 TEST(FilmFileRoom, RefusesWhatCannotBe) {
@@ -175,6 +180,23 @@ TEST(FilmFileRoom, RefusesWhatCannotBe) {
     FilmBytes another = file;
     another[8] = std::byte{2};
     EXPECT_EQ(refusal(another), "found version 2 of the film file's layout, expected 1");
+}
+
+// A file of a kilobyte does not get the memory of millions of pixels.
+TEST(FilmFileSize, IsInProportionToTheImage) {
+    FilmBytes file = bytes_of(some_film(Contrasting::many, false));
+    const std::string kind = "head";
+    const auto head = std::search(file.begin(), file.end(), reinterpret_cast<const std::byte*>(kind.data()),
+                                  reinterpret_cast<const std::byte*>(kind.data() + kind.size()));
+    const auto set = [&](std::ptrdiff_t at, std::uint32_t value) { std::memcpy(&*(head + 12 + at), &value, 4); };
+    set(0, 12000);
+    set(4, 12000);
+    set(12, 64);
+    repair_checksums(file);
+    EXPECT_EQ(FilmReader(source_of(file)).least_size(), 188u * 188 * 56);
+    set(12, 128);
+    repair_checksums(file);
+    EXPECT_EQ(refusal(file), "damaged: its head makes no sense");
 }
 
 // So that a film of few samples is small, and one of none takes a line a tile.
