@@ -6,8 +6,8 @@
 // spread as the irradiance of a small lamp. Whether anything stands between is not asked, so that their density seen
 // from the vertex is known: each crossing y of the direction with the ball that faces the lamp adds
 //     cos_g / (d^2 2 pi c) t^2 / cos_y,
-// cos_g and cos_y being the cosines at y towards the lamp and the vertex, d and t the distances to them, and c one less
-// the cosine of the cone's half angle. The ray carries on cos / pi over the density of the mixture, 2 at most.
+// cos_g and cos_y being the cosines at y towards the lamp and the vertex, d and t the distances to them, and
+// c = 1 - cos(half angle of the cone). The ray carries on cos / pi over the density of the mixture, 2 at most.
 //
 // Roulette is played as if the ray were not guided: one that goes to a bright spot carries little and brings much.
 //
@@ -32,7 +32,8 @@ struct SpotWeights {
     F light;  ///< what they send to the vertex, about, in the unit of GuideTable::brightness
 };
 
-/// About what light a spot sends to the vertex, less where it is so near or wide that the cosine lobe finds it as well.
+/// Which spots a vertex outside their balls is guided to: weights are the light that they send it, about, times the
+/// square of how sharp they look from there, since the cosine lobe finds broad ones as well.
 template <class V>
 ORRERY_INLINE SpotWeights<Floats<V>> spot_weights(const GuideTable<RealOf<V>>& table, const Vec3Of<V>& p,
                                                   const Vec3Of<V>& normal, const Words<V>& sphere) {
@@ -43,19 +44,25 @@ ORRERY_INLINE SpotWeights<Floats<V>> spot_weights(const GuideTable<RealOf<V>>& t
     for (std::uint32_t k = 0; k < table.count; ++k) {
         // To the point of the ball nearest to the lamp, in widths of the spot.
         const Vec3<F> up{F(table.nx[k]), F(table.ny[k]), F(table.nz[k])};
-        const Vec3<F> lamp{F(table.px[k]), F(table.py[k]), F(table.pz[k])};
-        const Vec3<F> v = along(lamp - p, F(-table.gap[k]), up) * F(table.inverse_width[k]);
+        const Vec3<F> nearest{F(table.px[k]), F(table.py[k]), F(table.pz[k])};
+        const Vec3<F> v = (nearest - p) * F(table.inverse_width[k]);
         const F distance2 = dot(v, v), wide = root(distance2) + one, four = distance2 + F(4);
         const F at_vertex = max(dot(v, normal) + one, zero), at_spot = max(one - dot(v, up), zero);
         const F fall = wide * wide * (distance2 + one), inverse = one / (fall * four);
         const F light = F(table.brightness[k]) * at_vertex * at_spot * (four * inverse);
         const F sharpness = distance2 * fall * inverse;
         const F weight = light * sharpness * sharpness;
-        // Less has no digits.
-        const auto counts = weight > F(0x1p-100f) && !words_equal(sphere, Words<V>(table.ball[k]));
+        const Vec3<F> to_centre =
+            (Vec3<F>{F(table.cx[k]), F(table.cy[k]), F(table.cz[k])} - p) * F(table.inverse_radius[k]);
+        const auto counts =
+            weight > zero && dot(to_centre, to_centre) > one && !words_equal(sphere, Words<V>(table.ball[k]));
         to.of[k] = choose(counts, weight, zero);
-        to.sum = to.sum + to.of[k];
         to.light = to.light + choose(counts, light, zero);
+    }
+    // What is drawn to less often than once in two thousand times is left to the cosine lobe: it would hardly pay.
+    for (std::uint32_t k = 0; k < table.count; ++k) {
+        to.of[k] = choose(to.of[k] > to.light * F(0x1p-10f), to.of[k], zero);
+        to.sum = to.sum + to.of[k];
     }
     return to;
 }
@@ -73,18 +80,19 @@ ORRERY_INLINE SpotSample<Floats<V>> sample_spot(const GuideTable<RealOf<V>>& tab
     using F = Floats<V>;
     const auto of = [&](const auto* column) ORRERY_INLINE_LAMBDA { return lookup<F>(column, which, table.count); };
     const F radius = of(table.radius), gap = of(table.gap), distance = radius + gap;
-    const Vec3<F> lamp{of(table.px), of(table.py), of(table.pz)};
+    const Vec3<F> nearest{of(table.px), of(table.py), of(table.pz)};
     const Vec3<F> up{of(table.nx), of(table.ny), of(table.nz)};
     const F below = u * of(table.cone), sin2 = below * (F(2) - below), cosine = F(1) - below;
     const F sine = root(max(sin2, F(0)));
     const auto aside = in_frame(up * F(-1), F(0), F(1), sincos_turns<V>(v));
     const F disc = radius * radius - distance * distance * sin2;
     const F t = gap * (radius + distance) / mul_add(distance, cosine, root(max(disc, F(0))));
-    const Vec3<F> to_point = along(along(lamp - p, t * sine, aside), F(0) - t * cosine, up);
+    // From the point nearest to the lamp, aside and down: no digits are lost to a lamp far away.
+    const F aside_by = t * sine, off_axis = aside_by * of(table.inverse_radius), off2 = off_axis * off_axis;
+    const F height = root(max(F(1) - off2, F(0)));
+    const Vec3<F> to_point = along(along(nearest - p, aside_by, aside), F(0) - radius * off2 / (height + F(1)), up);
     const auto direction = unit(to_point);
-    const F off_axis = t * sine * of(table.inverse_radius), off2 = off_axis * off_axis;
-    const Vec3<F> normal = aside * off_axis + up * root(max(F(1) - off2, F(0)));
-    return {direction, magnitude(dot(normal, direction))};
+    return {direction, magnitude(dot(aside * off_axis + up * height, direction))};
 }
 
 /// Density, per solid angle, of `direction` from p among those to points of spot k's ball. Where the direction was
@@ -94,7 +102,7 @@ template <class V>
 ORRERY_INLINE Floats<V> spot_pdf(const GuideTable<RealOf<V>>& table, std::uint32_t k, const Vec3Of<V>& p,
                                  const Vec3Of<V>& direction, const Mask<V>& drawn, const Floats<V>& known) {
     using F = Floats<V>;
-    const F zero(0), gap(table.gap_in_radii[k]);
+    const F zero(0), sine(table.sine[k]), gap_share(table.gap_share[k]);
     const Vec3<F> up{F(table.nx[k]), F(table.ny[k]), F(table.nz[k])};
     // In radii of the ball: no product leaves the range of numbers.
     const Vec3<F> to = (Vec3<F>{F(table.cx[k]), F(table.cy[k]), F(table.cz[k])} - p) * F(table.inverse_radius[k]);
@@ -106,14 +114,15 @@ ORRERY_INLINE Floats<V> spot_pdf(const GuideTable<RealOf<V>>& table, std::uint32
     for (const int side : {-1, 1}) {
         const F ahead = side < 0 ? F(0) - half : half, t = b + ahead;
         const Vec3<F> normal = direction * ahead - off;
-        const Vec3<F> to_lamp = along(up - normal, gap, up);
+        // Over the distance of the two centres.
+        const Vec3<F> to_lamp = along((up - normal) * sine, gap_share, up);
         const F facing = dot(to_lamp, normal);
         const auto counts = min(min(t, facing), half) > zero;
         if (!any(counts)) continue;
         const F distance2 = dot(to_lamp, to_lamp);
         sum = sum + choose(counts, facing * t * t / (distance2 * root(distance2) * half), zero);
     }
-    return sum * F(table.inverse_solid_angle[k]);
+    return sum * F(table.scale[k]);
 }
 
 /// Redraws the directions of a run of diffuse vertices, by the random numbers that they were scattered with.

@@ -50,7 +50,7 @@ struct CausticContext {
     std::uint32_t bounce = 0;
 };
 
-/// What guiding knows.
+/// What the stage `guide` reads besides rays.
 template <class Real>
 struct GuideContext {
     SphereTable<Real> spheres;

@@ -215,7 +215,7 @@ struct GuideTable {
     const Real* cy = nullptr;
     const Real* cz = nullptr;
     const Real* radius = nullptr;
-    const Real* px = nullptr;  ///< the lamp's centre, outside the ball
+    const Real* px = nullptr;  ///< its point nearest to the lamp's centre, which is outside
     const Real* py = nullptr;
     const Real* pz = nullptr;
     const Real* nx = nullptr;  ///< from the ball's centre towards the lamp's, unit length
@@ -227,8 +227,9 @@ struct GuideTable {
     // Inverses and ratios of these.
     const Real* inverse_width = nullptr;  ///< of the spot: the gap, or the radius where that is less
     const Real* inverse_radius = nullptr;
-    const Real* gap_in_radii = nullptr;
-    const Real* inverse_solid_angle = nullptr;  ///< of the cone
+    const Real* sine = nullptr;       ///< of that half angle, radius / (radius + gap)
+    const Real* gap_share = nullptr;  ///< gap / (radius + gap)
+    const Real* scale = nullptr;      ///< sine^2 over the cone's solid angle
 };
 
 /// The radiance of the enclosing volume.

@@ -29,10 +29,10 @@ std::vector<Case> all_cases(const std::vector<std::string>& scenes) {
             for (const std::uint32_t samples : {64u, 256u}) cases.push_back({scene, 48, estimator, samples});
         for (const Estimator estimator : {Estimator::stratified, Estimator::sobol})
             cases.push_back({scene, 48, estimator, 64, {.error = error}});
-        cases.push_back({scene, 48, Estimator::stratified, 64, {.error = error, .adaptive = false}});
-        cases.push_back({scene, 48, Estimator::stratified, 64, {.seconds = 0.05}});
-        cases.push_back({scene, 128, Estimator::stratified, 64});
-        cases.push_back({scene, 128, Estimator::stratified, 64, {.error = 2 * error}});
+        cases.push_back({scene, 48, Estimator::sobol, 64, {.error = error, .adaptive = false}});
+        cases.push_back({scene, 48, Estimator::sobol, 64, {.seconds = 0.05}});
+        cases.push_back({scene, 128, Estimator::sobol, 64});
+        cases.push_back({scene, 128, Estimator::sobol, 64, {.error = 2 * error}});
     }
     return cases;
 }

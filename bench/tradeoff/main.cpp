@@ -118,11 +118,12 @@ void run_classes(const Arguments& arguments, bool whole) {
     for (const std::string& name : arguments.names) {
         const Scene scene = scene_of(arguments.scenes / (name + ".json"));
         RenderSettings settings = usual_settings(scene.settings, arguments.pixels);
-        for (const auto& [options, sampling, caustics] :
-             {std::tuple("--light-sampling cone --caustics off", LightSampling::cone, false),
-              std::tuple("--caustics off", LightSampling::exact, false),
-              std::tuple("defaults", LightSampling::exact, true)}) {
-            settings.light_sampling = sampling, settings.caustics = caustics;
+        for (const auto& [options, sampling, caustics, guide] :
+             {std::tuple("--light-sampling cone --caustics off --guide off", LightSampling::cone, false, Guide::off),
+              std::tuple("--caustics off --guide off", LightSampling::exact, false, Guide::off),
+              std::tuple("--guide off", LightSampling::exact, true, Guide::off),
+              std::tuple("defaults", LightSampling::exact, true, Guide::automatic)}) {
+            settings.light_sampling = sampling, settings.caustics = caustics, settings.guide = guide;
             const ClassErrors errors = class_errors(scene, settings, samples);
             const std::string start = fmt::format("{},{}", fs::path(name).filename().string(), options);
             fmt::format_to(std::back_inserter(lines), "{},all,{:.4g}\n", start, errors.all);

@@ -30,9 +30,11 @@ inline constexpr double relative_floor = 0.01;
 ///
 /// Let D be the variance of a pixel's mean m, estimated as d from k contrasts. Then (m - truth)^2 - d has expectation 0
 /// and variance 2 D^2 (1 + 1/k) for every distribution of samples: the fourth cumulant, which makes both terms vary,
-/// cancels, because they see the same rare bright samples. d^2 k / (k + 2) stands for D^2; heavy tails make that too
-/// large and the interval too wide. Channels of a pixel are taken to err together; pixels are independent, their
-/// randomness being keyed by pixel. The interval is symmetric in the logarithm, as that of a ratio of variances is.
+/// cancels, because they see the same rare bright samples. d^2 k / (k + 1) stands for D^2: right for the lightest tails
+/// that a difference of two independent numbers can have (kurtosis 2, edges under Sobol's points come near it), too
+/// large for all others, the interval being too wide then. Channels of a pixel are taken to err together; pixels are
+/// independent, their randomness being keyed by pixel. The interval is symmetric in the logarithm, as that of a ratio
+/// of variances is.
 ///
 /// What is relative is relative to a truth that is known no better than the image. Of the error of a pixel whose own
 /// relative error is r, the share min(r^2, 1) is in doubt. Where a bright sample in dark surroundings is all that was
@@ -41,9 +43,9 @@ inline constexpr double relative_floor = 0.01;
 class SquaredError {
 public:
     /// `least`: what the variance may be as well, `doubtful`: the part of it that is in doubt.
-    void add(double variance, double contrasts, double least, double doubtful) {
+    void add(double variance, double least, double doubtful) {
         sum_ += variance;
-        squares_ += variance * variance * (contrasts + 1) / (contrasts + 2);
+        squares_ += variance * variance;
         least_ += least;
         doubtful_ += doubtful;
         ++pixels_;
@@ -63,7 +65,7 @@ public:
 
 private:
     double sum_ = 0;      ///< of d
-    double squares_ = 0;  ///< of d^2 (k + 1) / (k + 2)
+    double squares_ = 0;  ///< of d^2
     double least_ = 0;
     double doubtful_ = 0;  ///< of the part of d that is in doubt
     std::uint64_t pixels_ = 0;

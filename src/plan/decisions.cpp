@@ -63,10 +63,10 @@ std::vector<Decision> Plan::decisions() const {
            n.connect_point != 0 ? fmt::format("{} of them, from {} surfaces", point_lights_, kinds(n.connect_point))
            : point_lights_ == 0 ? "there is none"
                                 : "no surface they could light");
-    const std::string how_bright =
-        s.guide == Guide::automatic
-            ? fmt::format(": {:.2g} of the light, {:.2g} of that sharp", spot_light_.share, spot_light_.sharpness)
-            : "";
+    const std::string how_bright = s.guide == Guide::automatic
+                                       ? fmt::format(": sharp ones are {:.2g} of the light, {:.2g} of all spots'",
+                                                     spot_light_.share, spot_light_.sharpness)
+                                       : "";
     const bool exact = s.light_sampling == LightSampling::exact;
     const bool naive = n.integrator == Integrator::path_tracing && s.transport == Transport::naive;
     decide("shadow: area lights", n.connect_area != 0,
@@ -107,8 +107,8 @@ std::vector<Decision> Plan::decisions() const {
            : n.integrator == Integrator::whitted ? "diffuse surfaces end a ray"
            : s.guide == Guide::off               ? "switched off"
            : s.depth < 2                         ? "no path is long enough"
-           : s.guide == Guide::automatic && scene_.primitives.size() > most_spheres_for_spots
-               ? fmt::format("not considered among more than {} spheres", most_spheres_for_spots)
+           : s.guide == Guide::automatic && std::max(scene_.primitives.size(), point_lights_) > most_spheres_for_spots
+               ? fmt::format("not considered among more than {} spheres or lights", most_spheres_for_spots)
            : spots_.empty() ? "no lamp that is sampled makes a spot on a diffuse sphere outside it"
                             : "spots are too dim or too broad" + how_bright);
     const auto lights = sampled_lights();

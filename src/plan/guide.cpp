@@ -21,8 +21,8 @@ using kernels::Scattering;
 /// A spot that a ball as near as this times its radius makes has no digits.
 constexpr double nearest = 1e-4;
 /// A float holds the inverse of no narrower cone.
-constexpr double narrowest = 1e-36;
-/// Lamps that are looked at.
+constexpr double narrowest = 1e-30;
+/// Lamps whose spots are looked at, the brightest.
 constexpr std::size_t most_lamps = 64;
 /// Camera rays that are looked at: so many squared. Mirrors turn them so often.
 constexpr int rays_a_side = 16, most_turns = 4;
@@ -51,8 +51,6 @@ std::vector<Lamp> lamps_of(const Scene& scene, bool points, bool areas) {
     if (areas)
         for (const Primitive& p : scene.primitives)
             if (emits(p)) lamps.push_back({p.centre, brightest(*p.emission) * p.radius * p.radius, &p});
-    std::ranges::stable_sort(lamps, std::ranges::greater{}, &Lamp::intensity);
-    if (lamps.size() > most_lamps) lamps.resize(most_lamps);
     return lamps;
 }
 
@@ -65,7 +63,9 @@ double cone_of(double radius, double gap) {
 }  // namespace
 
 std::vector<PlannedSpot> plan_spots(const Scene& scene, bool points, bool areas) {
-    const std::vector<Lamp> lamps = lamps_of(scene, points, areas);
+    std::vector<Lamp> lamps = lamps_of(scene, points, areas);
+    std::ranges::stable_sort(lamps, std::ranges::greater{}, &Lamp::intensity);
+    if (lamps.size() > most_lamps) lamps.resize(most_lamps);
     std::vector<PlannedSpot> spots;
     const auto brighter = [&](const PlannedSpot& a, const PlannedSpot& b) { return brightness(a) > brightness(b); };
     for (std::uint32_t i = 0; i < scene.primitives.size(); ++i) {
@@ -173,14 +173,15 @@ SpotColumns<Real>::SpotColumns(const Scene& scene, const LengthUnit& unit, const
     for (const PlannedSpot& s : spots) {
         const Primitive& ball = scene.primitives[s.ball];
         const glm::dvec3 towards = glm::normalize(s.lamp - ball.centre);
-        const double cone = cone_of(ball.radius, s.gap);
+        const double cone = cone_of(ball.radius, s.gap), sine = ball.radius / (ball.radius + s.gap);
+        const glm::dvec3 nearest_point = ball.centre + ball.radius * towards;
         const double row[] = {unit.in_units(ball.centre.x),
                               unit.in_units(ball.centre.y),
                               unit.in_units(ball.centre.z),
                               unit.in_units(ball.radius),
-                              unit.in_units(s.lamp.x),
-                              unit.in_units(s.lamp.y),
-                              unit.in_units(s.lamp.z),
+                              unit.in_units(nearest_point.x),
+                              unit.in_units(nearest_point.y),
+                              unit.in_units(nearest_point.z),
                               towards.x,
                               towards.y,
                               towards.z,
@@ -189,8 +190,9 @@ SpotColumns<Real>::SpotColumns(const Scene& scene, const LengthUnit& unit, const
                               brightness(s) / brightest_spot,
                               1 / unit.in_units(s.width),
                               1 / unit.in_units(ball.radius),
-                              s.gap / ball.radius,
-                              1 / (2 * std::numbers::pi * cone)};
+                              sine,
+                              s.gap / (ball.radius + s.gap),
+                              sine * sine / (2 * std::numbers::pi * cone)};
         static_assert(std::size(row) == std::tuple_size_v<decltype(columns_)>);
         ball_.push_back(place[s.ball]);
         for (std::size_t c = 0; c < std::size(row); ++c) columns_[c].push_back(static_cast<Real>(row[c]));
@@ -220,7 +222,8 @@ kernels::GuideTable<Real> SpotColumns<Real>::table() const {
             c(13),
             c(14),
             c(15),
-            c(16)};
+            c(16),
+            c(17)};
 }
 
 template class SpotColumns<float>;

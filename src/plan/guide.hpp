@@ -24,13 +24,13 @@ struct PlannedSpot {
 /// The brightest, no more than kernels::most_spots. Of point lights, area lights or both.
 std::vector<PlannedSpot> plan_spots(const Scene& scene, bool points, bool areas);
 
-/// In larger scenes nobody asks what spots send.
+/// In scenes of more spheres, or lights, bounces are not guided unless told to.
 inline constexpr std::size_t most_spheres_for_spots = 4096;
 
 /// What of the light that the camera's rays find on diffuse surfaces comes from spots, and from how far.
 struct SpotLight {
-    double share = 0;      ///< of what comes straight from lamps or over the spots, in [0, 1]
-    double sharpness = 0;  ///< how much of it from spots so far away or small that cosine lobes seldom find them
+    double share = 0;      ///< of sharp spots in what comes straight from lamps or over those, in [0, 1]
+    double sharpness = 0;  ///< of sharp spots in what comes over all spots: cosine lobes seldom find sharp ones
 };
 /// Nothing in the way of it is looked for. Takes some hundred rays times spheres times lamps.
 SpotLight light_of_spots(const Scene& scene, const CameraFrame& camera, const std::vector<PlannedSpot>& spots);
@@ -50,7 +50,7 @@ public:
 
 private:
     std::vector<kernels::WordOf<Real>> ball_;
-    std::array<std::vector<Real>, 17> columns_;
+    std::array<std::vector<Real>, 18> columns_;
 };
 
 extern template class SpotColumns<float>;

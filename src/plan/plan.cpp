@@ -142,13 +142,14 @@ void Plan::plan_needs() {
     needs_.lobes = ((needs_.connect_point | needs_.connect_area) & ~diffuse) != 0;
 }
 
-/// To spots that lamps make which diffuse surfaces sample: what they find there counts.
+/// Only to spots of lamps that diffuse surfaces sample: elsewhere guided rays find nothing but by chance.
 void Plan::plan_guide() {
     const auto& s = settings();
     const auto diffuse = kernels::bit_of(kernels::Scattering::diffuse);
     const bool points = (needs_.connect_point & diffuse) != 0, areas = (needs_.connect_area & diffuse) != 0;
     if (s.integrator != Integrator::path_tracing || s.guide == Guide::off || s.depth < 2 || !(points || areas)) return;
-    if (s.guide == Guide::automatic && scene_.primitives.size() > most_spheres_for_spots) return;
+    if (s.guide == Guide::automatic && std::max(scene_.primitives.size(), point_lights_) > most_spheres_for_spots)
+        return;
     spots_ = plan_spots(scene_, points, areas);
     if (s.guide == Guide::automatic) spot_light_ = light_of_spots(scene_, frame_, spots_);
     needs_.guide = !spots_.empty() && (s.guide == Guide::on || worth_guiding(spot_light_));

@@ -51,8 +51,8 @@ std::vector<Setting> table() {
          .member = {[](const S& s) { return SettingValue{s.width, s.height}; },
                     [](S& s, SettingValue value) { s.width = value[0], s.height = value[1]; }}},
         {.key = "samples", .option = "spp", .group = "Image", .low = 1, .high = any, .required = true,
-         .meaning = "Samples per pixel; stratified takes the square number below, sobol is at its best with powers of "
-                    "two",
+         .meaning = "Samples per pixel; stratified takes the square number below, sobol the even one and is at its best "
+                    "with powers of two",
          .member = member<&S::samples>},
         {.key = "estimator", .option = "estimator", .group = "Method", .kind = word,
          .words = {"uniform", "stratified", "sobol"}, .same_expectation = true,

@@ -212,7 +212,7 @@ void Wave<Real>::guide(const Runs& runs, std::uint32_t bounce) {
     const Range vertices = runs.run[static_cast<std::size_t>(Scattering::diffuse)];
     // What rays from the last vertex find are lamps alone.
     if (!plan.needs().guide || vertices.count == 0 || bounce + 2 > plan.settings().depth) return;
-    call({guide_info, bounce, vertices, words<Real>(3 + 2 * 3 + 2 * 3 + 1 + 2), stages.lanes},
+    call({guide_info, bounce, vertices, words<Real>(3 + 2 * 3 + 2 * 3 + 1 + 2 + 1 + 2), stages.lanes},
          [&t = tables, seed = plan.settings().seed, competing = plan.needs().competing, bounce, vertices](const auto& s,
                                                                                                           auto& q) {
              s.guide({t.spheres, q.slots, t.guide, seed, bounce, competing}, vertices, q.rays);

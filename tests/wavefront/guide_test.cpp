@@ -99,6 +99,15 @@ TEST_P(Guided, IsTheSameLight) {
     std::vector<Variant> variants = {variant("unguided", Guide::off), variant("guided", Guide::on),
                                      variant("sobol", Guide::on, mis, Estimator::sobol), variant("nee", Guide::on, nee),
                                      variant("double", Guide::on, mis, stratified, best_isa(), Precision::binary64)};
+    // Where scattering and light samples are weighed against each other.
+    for (const LightSampling sampling : {LightSampling::cone, LightSampling::area}) {
+        Variant weighed = variant("weighed", Guide::on);
+        weighed.apply = [sampling, apply = weighed.apply](RenderSettings& s) {
+            apply(s);
+            s.light_sampling = sampling, s.light_choice = LightChoice::power;
+        };
+        variants.push_back(weighed);
+    }
     if (isa_supported(Isa::sse2)) variants.push_back(variant("SSE2", Guide::on, mis, stratified, Isa::sse2));
     expect_agreement_of(variants, scene, {.samples = 1024, .seeds = 4, .reference_samples = 1000});
 }
