@@ -14,8 +14,8 @@
 //     "what"  u32 number of entries; of each key and value u32 length and bytes: what the render is of
 //     "head"  u32 width, height; u8 1 for Contrasting::one, else 0; u8 1 where regions are halves of tiles, else 0;
 //             u8 1 while passes are spread evenly, else 0; u8 1 where the render is finished, else 0; u32 side of
-//             tiles, even, at most 64; u32 shard, of how many; u32 passes; f64 seconds, share of the work before the present
-//             pass, share with it
+//             tiles, even, at most 64; u32 shard, of how many; u32 passes; f64 seconds, share of the work before the
+//             present pass, share with it
 //     "tile"  of every region of the shard, in order: u64 number; u32 taken, strata, visits, 0; u64 dropped;
 //             f64 scatter (FilmRegion has the meanings); where taken > 0 its pixels, row by row
 //     "end."  u64 number of "tile" sections
