@@ -1,9 +1,11 @@
 #include "oracles.hpp"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <limits>
 
+#include "plan/coincident.hpp"
 #include "scene/read.hpp"
 #include "scene_text.hpp"
 #include "wavefront/scenes.hpp"
@@ -138,9 +140,17 @@ void same_at_other_scales(const Scene& scene, const Way& way, Choices& choices) 
     expect_same(image_of(scene, way), image_of(other, way), scene, "lengths times 2^" + std::to_string(k));
 }
 
+/// Whether spheres are so nearly the same that the plan may take them for one, of which the first listed is kept.
+bool listed_almost_twice(const Scene& scene) {
+    constexpr double digits = 64 * 0x1p-24;
+    const auto found = coincidences(scene.primitives, digits, digits);
+    return found.too_many || std::ranges::any_of(found.same, [](const Twins& t) { return t.apart > 0; });
+}
+
 /// Whether other numbers than the spheres' own places may depend on the order in which they are listed.
 bool order_counts(const Scene& scene) {
     const RenderSettings& s = scene.settings;
+    if (listed_almost_twice(scene)) return true;
     if (s.integrator == Integrator::depth) return false;
     if (has_contact(scene)) return true;  // which of two equally near surfaces is met
     if (s.integrator == Integrator::path_tracing && s.transport == Transport::naive) return false;
