@@ -34,7 +34,7 @@ TEST(Variants, BeginWithTheDefaultsAndHaveNamesOfTheirOwn) {
     EXPECT_EQ(variants.front().name(), "defaults");
     std::vector<std::string> names;
     for (const Variant& variant : variants) names.push_back(variant.name());
-    EXPECT_THAT(names, ::testing::Contains("--transport naive --light-sampling area --estimator sobol"));
+    EXPECT_THAT(names, ::testing::Contains("--transport naive --light-sampling area --estimator stratified"));
     EXPECT_THAT(names,
                 ::testing::IsSupersetOf({"--light-choice uniform", "--light-choice power", "--roulette-from 4"}));
     EXPECT_THAT(names, ::testing::Contains("--precision double"));
