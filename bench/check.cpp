@@ -23,13 +23,17 @@ struct Column {
     const std::uint32_t* words;
     std::size_t width;
     bool number;
+    bool by_slot;  ///< a table of slots, not of records
 };
 
 std::vector<Column> columns(const WaveStorage<float>& storage, const StageCall& call) {
     std::vector<Column> found;
-    each_array(storage, call.results, 1, 1, [&]<class T>(const char* name, const T* array, std::size_t words) {
-        found.push_back({name, reinterpret_cast<const std::uint32_t*>(array), words, std::is_same_v<T, float>});
-    });
+    const std::uint32_t by_slot = call.results & chain_part;
+    for (const std::uint32_t parts : {call.results & ~by_slot, by_slot})
+        each_array(storage, parts, 1, 1, [&]<class T>(const char* name, const T* array, std::size_t words) {
+            found.push_back({name, reinterpret_cast<const std::uint32_t*>(array), words, std::is_same_v<T, float>,
+                             parts == by_slot});
+        });
     return found;
 }
 
@@ -96,10 +100,10 @@ Difference difference(const StageCall& call, const WaveStorage<float>& expected,
             continue;
         }
         for (std::size_t c = 0; c < a.size(); ++c) {
-            const std::size_t j = other->second;
-            const bool same =
-                to_the_byte ? std::memcmp(a[c].words + i * a[c].width, b[c].words + j * b[c].width, 4 * a[c].width) == 0
-                            : close(a[c], i, b[c], j);
+            const std::size_t at_a = a[c].by_slot ? key : i, at_b = b[c].by_slot ? key : other->second;
+            const bool same = to_the_byte ? std::memcmp(a[c].words + at_a * a[c].width, b[c].words + at_b * b[c].width,
+                                                        4 * a[c].width) == 0
+                                          : close(a[c], at_a, b[c], at_b);
             if (same) continue;
             differ(a[c].name);
             break;

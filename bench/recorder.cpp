@@ -34,9 +34,11 @@ Recording record(const Plan& plan, std::uint32_t waves) {
         const bool recorded = stage.writes != 0 && records.count != 0 && (bounce == 0 || bounce == 1 || bounce == 3);
         if (recorded) {
             const std::string name = stage.name + std::string(*detail != 0 ? " " : "") + detail;
+            // Picks name the rays and hits that are read: any of them.
+            const std::uint32_t reach = (stage.reads & pick_part) != 0 ? kernels::ray_capacity(wave.storage.slot_count)
+                                                                       : records.begin + records.count;
             recording.calls.push_back({name, bounce, records.count, bytes, stage.writes, wave.count, target,
-                                       Snapshot(wave.storage, stage.reads, wave.count, records.begin + records.count),
-                                       run});
+                                       Snapshot(wave.storage, stage.reads, wave.count, reach), run});
         }
         const kernels::Runs left = run(stages, wave.storage);
         if (recorded && left.moved) recording.calls.back().bytes += moved_bytes;
